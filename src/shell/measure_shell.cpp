@@ -1,6 +1,7 @@
 #include "measure_shell.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -10,65 +11,111 @@
 namespace sdf_ccd {
 namespace {
 
-/// What a task has found.
-struct Found {
-  std::vector<std::pair<std::int32_t, double>> shares;  // of points, in the area [m²]
-  double farthest2 = 0.0;                               // of a part from its point, squared [m²]
-};
+/// Triangles per task. Fixed, so that results do not depend on the number of threads.
+constexpr std::size_t kChunk = 64;
 
-/// Adds the cells of one triangle to its points' shares.
-void divide(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& pieces, Found& found) {
+std::size_t chunks(const TriangleMesh& mesh) {
+  return (mesh.triangles.size() + kChunk - 1) / kChunk;
+}
+
+/// Calls work(chunk, triangle) for all triangles; chunks in parallel.
+template <typename Work>
+void forEachTriangle(const TriangleMesh& mesh, const NearestPoint& nearest, double scale, Work work) {
+  const CancelPoint cancel;
+  parallelFor(std::size_t{0}, chunks(mesh), [&](std::size_t chunk) {
+    PieceWalk pieces(nearest, scale, cancel);
+    const std::size_t last = std::min(mesh.triangles.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < last; ++i) work(chunk, static_cast<int>(i), pieces);
+  });
+}
+
+using Shares = std::vector<std::pair<std::int32_t, double>>;  // of points, in the area [m²]
+
+/// Adds the cells of one triangle to its points' shares. @return the largest distance of a cell from its point,
+/// squared.
+double divide(const SurfacePiece& whole, const Vector3d& facing, PieceWalk& pieces, Shares& shares) {
+  double farthest2 = 0.0;
   const auto belongsToOne = [&](const ContestedPiece& contested) {
     if (contested.size() > 1) return false;
     const Candidate& owner = *contested.begin;
-    found.shares.emplace_back(owner.index, contested.piece.area());
-    found.farthest2 = std::max(found.farthest2, contested.piece.farthest2(owner.point));
+    shares.emplace_back(owner.index, contested.piece.area());
+    farthest2 = std::max(farthest2, contested.piece.farthest2(owner.point));
     return true;
   };
   pieces.walk(whole, facing, belongsToOne, [&](const ContestedPiece& contested) {
-    const std::size_t first = found.shares.size();
+    const std::size_t first = shares.size();
     double sum = 0;
     forEachCell(contested, [&](const Candidate& candidate, const CellPolygon& cell) {
-      found.shares.emplace_back(candidate.index, cell.area());
-      found.farthest2 = std::max(found.farthest2, cell.farthest2(candidate.point));
-      sum += found.shares.back().second;
+      shares.emplace_back(candidate.index, cell.area());
+      farthest2 = std::max(farthest2, cell.farthest2(candidate.point));
+      sum += shares.back().second;
     });
     // Up to rounding, the cells fill the piece. Normalised, so that rounding does not accumulate.
     const double area = contested.piece.area();
-    for (std::size_t share = first; share < found.shares.size(); ++share) {
-      found.shares[share].second *= sum > 0 ? area / sum : 0;
+    for (std::size_t share = first; share < shares.size(); ++share) {
+      shares[share].second *= sum > 0 ? area / sum : 0;
     }
-    if (!(sum > 0)) found.shares.emplace_back(contested.begin->index, area);
+    if (!(sum > 0)) shares.emplace_back(contested.begin->index, area);
   });
+  return farthest2;
+}
+
+void raise(double value, std::atomic<double>& largest) {
+  double known = largest.load(std::memory_order_relaxed);
+  while (value > known && !largest.compare_exchange_weak(known, value, std::memory_order_relaxed)) {
+  }
+}
+
+/// The square of the covering radius.
+/// @param at_most2  per triangle, an upper bound of it. Few triangles' are above the radius, and only these are walked.
+double coveringRadius2(const TriangleMesh& mesh, const NearestPoint& nearest, double scale,
+                       const std::vector<double>& at_most2) {
+  const Vector3d any = Vector3d::Zero();
+  std::vector<double> reached2(chunks(mesh), 0.0);
+  // First one location per triangle: the better the lower bound of the radius, the fewer pieces must be cut.
+  forEachTriangle(mesh, nearest, scale, [&](std::size_t chunk, int i, PieceWalk&) {
+    if (at_most2[static_cast<std::size_t>(i)] <= reached2[chunk]) return;
+    reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);
+  });
+  // Shared by all tasks, in any order: a task skips only pieces that are covered by a radius already found.
+  std::atomic<double> bound2{*std::max_element(reached2.begin(), reached2.end())};
+  const auto isBelow = [&](const ContestedPiece& contested) {
+    const double known2 = bound2.load(std::memory_order_relaxed);
+    return std::any_of(contested.begin, contested.end, [&](const Candidate& candidate) {
+      return contested.piece.farthest2(candidate.point) <= known2;
+    });
+  };
+  forEachTriangle(mesh, nearest, scale, [&](std::size_t, int i, PieceWalk& pieces) {
+    if (at_most2[static_cast<std::size_t>(i)] <= bound2.load(std::memory_order_relaxed)) return;
+    pieces.walk(SurfacePiece::of(mesh, i), any, isBelow, [&](const ContestedPiece& contested) {
+      forEachCell(contested, [&](const Candidate& candidate, const CellPolygon& cell) {
+        raise(cell.farthest2(candidate.point), bound2);
+      });
+    });
+  });
+  return bound2.load();
 }
 
 }  // namespace
 
 ShellMeasures measureShell(const TriangleMesh& mesh, const PointShell& shell, double scale) {
-  constexpr std::size_t kChunk = 64;  // triangles of a task; fixed, so that results do not depend on threads
   const NearestPoint nearest(shell);
-  const CancelPoint cancel;
-  const std::size_t count = mesh.triangles.size();
-  std::vector<Found> found((count + kChunk - 1) / kChunk);
-  parallelFor(std::size_t{0}, found.size(), [&](std::size_t chunk) {
-    PieceWalk pieces(nearest, scale, cancel);
-    for (std::size_t i = chunk * kChunk; i < std::min(count, (chunk + 1) * kChunk); ++i) {
-      const SurfacePiece whole = SurfacePiece::of(mesh, static_cast<int>(i));
-      Vector3d facing = areaNormal(mesh, static_cast<int>(i));
-      if (nearest.find(whole.corners[0], facing).index < 0) facing.setZero();
-      divide(whole, facing, pieces, found[chunk]);
-    }
+  std::vector<Shares> shares(chunks(mesh));
+  std::vector<double> farthest2(mesh.triangles.size());
+  forEachTriangle(mesh, nearest, scale, [&](std::size_t chunk, int i, PieceWalk& pieces) {
+    const SurfacePiece whole = SurfacePiece::of(mesh, i);
+    Vector3d facing = areaNormal(mesh, i);
+    if (nearest.find(whole.corners[0], facing).index < 0) facing.setZero();
+    farthest2[static_cast<std::size_t>(i)] = divide(whole, facing, pieces, shares[chunk]);
   });
   ShellMeasures measures;
   measures.areas.assign(shell.size(), 0.0);
-  double farthest2 = 0.0;
-  for (const Found& chunk : found) {
-    for (const auto& [index, area] : chunk.shares) measures.areas[index] += area;
-    farthest2 = std::max(farthest2, chunk.farthest2);
+  for (const Shares& chunk : shares) {
+    for (const auto& [index, area] : chunk) measures.areas[index] += area;
   }
   const AlignedBox3d box = boundingBox(mesh);
   const double rounding = 1e-14 * (box.min().cwiseAbs().maxCoeff() + box.sizes().norm()) + 1e-9 * scale;
-  measures.covering_radius = std::sqrt(farthest2) * (1 + 1e-9) + rounding;
+  measures.covering_radius = std::sqrt(coveringRadius2(mesh, nearest, scale, farthest2)) * (1 + 1e-9) + rounding;
   return measures;
 }
 

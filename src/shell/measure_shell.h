@@ -7,12 +7,13 @@
 
 namespace sdf_ccd {
 
-/// The parts of a mesh that are nearest to each point of its shell. For each triangle only points compete whose normal
-/// does not oppose the triangle's, so that the points on the two sides of a thin plate get the area of their own side;
-/// all points, if all oppose it.
 struct ShellMeasures {
-  std::vector<double> areas;     ///< per point, of its parts [m²]; exact, the sum is the mesh's area
-  double covering_radius = 0.0;  ///< largest distance of a part from its point [m], rounded up by a relative 1e-9
+  /// Per point, the area of the mesh whose nearest point it is [m²]. Only points whose normal does not oppose a
+  /// triangle's compete for it, so that the points on the two sides of a thin plate get the area of their own side; all
+  /// points, if all oppose it. Exact; the sum is the mesh's area.
+  std::vector<double> areas;
+  /// The smallest radius with which spheres about the points cover the mesh [m], rounded up by a relative 1e-9.
+  double covering_radius = 0.0;
 };
 
 /// @param shell  one or more points.

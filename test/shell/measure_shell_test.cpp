@@ -51,19 +51,21 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
     const Vector3d facing = areaNormal(mesh, static_cast<int>(t));
     std::vector<char> takes(shell.size());
     for (std::size_t i = 0; i < shell.size(); ++i) takes[i] = shell.normals[i].cast<double>().dot(facing) >= 0;
-    if (std::count(takes.begin(), takes.end(), 1) == 0) takes.assign(shell.size(), 1);
+    const bool any = std::count(takes.begin(), takes.end(), 1) == 0;
     for (std::size_t i = 0; i < shell.size(); ++i) {
-      Polygon own = takes[i] ? whole : Polygon();
+      Polygon cell = whole, own = any || takes[i] ? whole : Polygon();
       for (std::size_t j = 0; j < shell.size(); ++j) {
-        if (j == i || !takes[j]) continue;
+        if (j == i) continue;
         const Point p = shell.points[i].cast<Real>(), q = shell.points[j].cast<Real>();
-        if (p != q) {
-          own = nearer(own, p, q);
-        } else if (j < i) {
-          own.clear();  // the first of several points at one location gets all of the area
+        if (p == q) {  // the first of several points at one location gets all of the area
+          if (j < i) cell.clear();
+          if (j < i && (any || takes[j])) own.clear();
+          continue;
         }
+        cell = nearer(cell, p, q);
+        if (any || takes[j]) own = nearer(own, p, q);
       }
-      for (const Point& corner : own)
+      for (const Point& corner : cell)
         measured.radius =
             std::max(measured.radius, static_cast<double>((corner - shell.points[i].cast<Real>()).norm()));
       measured.areas[i] += static_cast<double>(areaOf(own));
