@@ -197,6 +197,13 @@ TriangleMesh topMesh(double radius, double height, int steps) {
   return revolved(profile, steps);
 }
 
+TriangleMesh coneMesh(double radius, double height) {
+  requireSizes("cone", {radius, height});
+  constexpr int kSteps = 224;  // 1 / cos(π / 224) = 1 + 0.984e-4
+  const double circumscribed = radius / std::cos(kPi / kSteps);
+  return revolved({{0.0, -0.5 * height}, {circumscribed, -0.5 * height}, {0.0, 0.5 * height}}, kSteps);
+}
+
 TriangleMesh wedgeMesh(double width, double height, double length) {
   requireSizes("wedge", {width, height});
   const Isometry3d upright(Eigen::AngleAxisd(0.5 * kPi, Vector3d::UnitX()));

@@ -24,6 +24,11 @@ TriangleMesh blobMesh(double radius, double bump, int points);
 /// A spinning top that stands on its rounded tip: a cone with a stem, its tip at the lowest point.
 TriangleMesh topMesh(double radius, double height, int steps);
 
+/// A cone about z with its tip at z = height / 2 and its base at −height / 2. The mesh contains the cone, and exceeds
+/// it by at most kConeExcess times the radius.
+TriangleMesh coneMesh(double radius, double height);
+constexpr double kConeExcess = 1e-4;
+
 /// A triangular prism with an edge at the bottom: `width` across at the top, `height` deep, `length` along y.
 TriangleMesh wedgeMesh(double width, double height, double length);
 

@@ -1,5 +1,8 @@
 #include "geometry/generated_mesh.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -12,10 +15,10 @@ constexpr Thread kThread{0.02, 0.008, 0.004};
 
 TEST(GeneratedMesh, AllAreClosedAndEncloseVolume) {
   const std::pair<const char*, TriangleMesh> meshes[] = {
-      {"bowl", bowlMesh(0.1, 0.01, 48)},         {"blob", blobMesh(0.1, 0.2, 800)},
-      {"top", topMesh(0.04, 0.08, 32)},          {"wedge", wedgeMesh(0.1, 0.2, 0.3)},
-      {"slot", slotMesh(0.1, 0.2, 0.3)},         {"bolt", boltMesh(kThread, 0.08, 48)},
-      {"nut", nutMesh(kThread, 0.001, 0.02, 48)}};
+      {"bowl", bowlMesh(0.1, 0.01, 48)},          {"blob", blobMesh(0.1, 0.2, 800)},
+      {"top", topMesh(0.04, 0.08, 32)},           {"wedge", wedgeMesh(0.1, 0.2, 0.3)},
+      {"slot", slotMesh(0.1, 0.2, 0.3)},          {"bolt", boltMesh(kThread, 0.08, 48)},
+      {"nut", nutMesh(kThread, 0.001, 0.02, 48)}, {"cone", coneMesh(0.1, 0.3)}};
   for (const auto& [name, mesh] : meshes) {
     const MeshQuality quality = orientOutward(mesh).quality;
     EXPECT_TRUE(quality.sign_trusted) << name << ": " << summary(quality);
@@ -31,6 +34,21 @@ TEST(GeneratedMesh, VolumesHaveTheirClosedForms) {
   const double R = 0.1, t = 0.02, rim = kPi * kPi * t * t / 4.0 * (R - 0.5 * t);  // half a torus (Pappus)
   const double bowl = 2.0 / 3.0 * kPi * (R * R * R - std::pow(R - t, 3)) + rim;
   EXPECT_NEAR(signedVolume(bowlMesh(R, t, 400)), bowl, 0.01 * bowl);
+}
+
+TEST(GeneratedMesh, AConeIsContainedAndHardlyExceeded) {
+  const double radius = 0.1, height = 0.3;
+  const TriangleMesh mesh = coneMesh(radius, height);
+  const Vector3d tip(0, 0, 0.5 * height);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    // The plane of each side touches the cone, or contains its base.
+    const Vector3d n = areaNormal(mesh, static_cast<int>(i)).normalized();
+    const double offset = n.dot(mesh.vertices[mesh.triangles[i][0]]);
+    const double farthest = std::max(n.dot(tip), radius * n.head<2>().norm() - 0.5 * height * n.z());
+    EXPECT_GE(offset, farthest - 1e-12);
+    EXPECT_LE(offset, farthest + 1e-12);
+  }
+  for (const Vector3d& p : mesh.vertices) EXPECT_LE(p.head<2>().norm(), (1.0 + kConeExcess) * radius);
 }
 
 TEST(GeneratedMesh, BlobHasThePointsAskedFor) {

@@ -131,6 +131,18 @@ TEST_F(ChangingSceneTest, AddsMovesAndRemoves) {
   EXPECT_TRUE(scene_->objects().empty());
 }
 
+TEST_F(ChangingSceneTest, AConeStandsOnItsBase) {
+  SceneChange cone = box();
+  cone.primitives[0].type = shape_msgs::SolidPrimitive::CONE;
+  cone.primitives[0].dimensions = {0.4, 0.1};
+  cone.primitives[0].dimensions[shape_msgs::SolidPrimitive::CONE_HEIGHT] = 0.4;
+  apply(cone);
+  const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(body("box").geometry[0].shape);
+  EXPECT_NEAR(signedVolume(*mesh), M_PI * 0.01 * 0.4 / 3.0, 1e-5);
+  for (const Vector3d& p : mesh->vertices)
+    EXPECT_NEAR(p.head<2>().norm(), p.z() < 0.0 ? 0.1 : 0.0, 1.1e-5) << p.transpose();
+}
+
 TEST_F(ChangingSceneTest, AttachesWhereTheObjectIs) {
   apply(box());
   SceneChange attach = change(SceneChange::ATTACH);
@@ -266,7 +278,7 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   EXPECT_NE(refusal(bad), "");
   bad.primitives[0].dimensions = {1, 1};
   EXPECT_EQ(refusal(bad), "primitives[0] has 2 dimensions instead of 3");
-  bad.primitives[0].type = shape_msgs::SolidPrimitive::CONE;
+  bad.primitives[0].type = 5;
   EXPECT_NE(refusal(bad), "");
   bad = box();
   bad.pose.position.z = nan;

@@ -102,7 +102,7 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
     text.replace(text.find(from), from.size(), to);
     return errorOf(".scene", text);
   };
-  EXPECT_NE(error("box\n0.1", "cone\n0.1").find("line 6: a shape must be box"), std::string::npos);
+  EXPECT_NE(error("box\n0.1", "torus\n0.1").find("line 6: a shape must be box"), std::string::npos);
   EXPECT_NE(error("0.1 0.2", "0.1 -0.2").find("line 7: a size must be positive"), std::string::npos);
   EXPECT_NE(error("0.1 0.2", "0.1 nan").find("line 7: expected a number"), std::string::npos);
   EXPECT_NE(error("0 1 2\n0 0 2", "0 1 3\n0 0 2").find("a triangle has vertex 3, of 3"), std::string::npos);
@@ -117,6 +117,20 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
   EXPECT_NE(errorOf(".txt", "").find("must end in .yaml, .yml or .scene"), std::string::npos);
   for (std::size_t end = 0; end < std::string(kScene).size() - 2; ++end)
     ASSERT_NE(errorOf(".scene", std::string(kScene).substr(0, end)), "") << end;
+}
+
+TEST(WorldFile, ConesAreMeshes) {
+  std::string text = kScene;
+  const std::string box = "box\n0.1 0.2 0.3\n";
+  text.replace(text.find(box), box.size(), "cone\n0.1 0.4\n");
+  for (const auto& [suffix, content] :
+       {std::pair<const char*, std::string>{".scene", text},
+        {".yaml", "world: [{name: a, type: cone, radius: 0.1, length: 0.4}]"},
+        {".yaml", "world: {collision_objects: [{id: a, primitives: [{type: cone, dimensions: [0.4, 0.1]}]}]}"}}) {
+    const std::vector<WorldObject> objects = loadWorldFile(written(suffix, content));
+    const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(objects.front().shapes.front().shape);
+    EXPECT_NEAR(signedVolume(*mesh), M_PI * 0.01 * 0.4 / 3.0, 1e-5) << content;
+  }
 }
 
 TEST(WorldFile, OurYamlAndMoveits) {
@@ -164,9 +178,10 @@ world:
   EXPECT_NE(error("primitives: []").find("one or more primitives"), std::string::npos);
   EXPECT_NE(error("primitives: [{type: box, dimensions: [1, 2]}]").find("a list of 3 finite numbers"),
             std::string::npos);
-  EXPECT_NE(error("primitives: [{type: cone, dimensions: [1, 2]}]").find("one of box sphere cylinder"),
+  EXPECT_NE(error("primitives: [{type: torus, dimensions: [1, 2]}]").find("one of box sphere cylinder cone"),
             std::string::npos);
-  EXPECT_NE(error("primitives: [{type: 4, dimensions: [1, 2]}]").find("a box, sphere or cylinder"), std::string::npos);
+  EXPECT_NE(error("primitives: [{type: 5, dimensions: [1, 2]}]").find("a box, sphere, cylinder or cone"),
+            std::string::npos);
   EXPECT_NE(error("operation: 1, primitives: [{type: sphere, dimensions: [1]}]").find("expected ADD"),
             std::string::npos);
   EXPECT_NE(error("primitives: [{type: sphere, dimensions: [1]}], primitive_poses: [{}, {}]").find("expected 1 poses"),

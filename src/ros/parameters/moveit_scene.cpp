@@ -124,6 +124,9 @@ WorldShape readShape(Words& words) {
   } else if (type == "cylinder") {
     const double radius = words.positive();
     made.shape = Primitive(Cylinder{radius, 0.5 * words.positive()});
+  } else if (type == "cone") {
+    const double radius = words.positive();
+    made.shape = coneShape(radius, words.positive());
   } else if (type == "plane") {
     const Vector3d normal = words.vector();
     const auto solid = solidBelow(normal, words.number());
@@ -132,7 +135,7 @@ WorldShape readShape(Words& words) {
   } else if (type == "mesh") {
     made.shape = std::make_shared<const TriangleMesh>(readMesh(words));
   } else {
-    words.fail("a shape must be box, sphere, cylinder, plane or mesh, not " + shownText(type));
+    words.fail("a shape must be box, sphere, cylinder, cone, plane or mesh, not " + shownText(type));
   }
   made.X_BG = words.pose();
   for (int channel = 0; channel < 4; ++channel) words.number();  // its colour

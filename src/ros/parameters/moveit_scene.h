@@ -8,9 +8,9 @@
 
 namespace sdf_ccd {
 
-/// Parses MoveIt's text format of a planning scene: objects made of boxes, spheres, cylinders, planes and meshes, in
-/// the present format, with a pose of each object and its subframes (which are ignored), or in the format before
-/// Noetic. Cones and OctoMaps are rejected.
+/// Parses MoveIt's text format of a planning scene: objects made of boxes, spheres, cylinders, cones, planes and
+/// meshes, in the present format, with a pose of each object and its subframes (which are ignored), or in the format
+/// before Noetic. OctoMaps are rejected.
 /// @throws std::runtime_error with the line and the reason.
 std::vector<WorldObject> parseMoveitScene(const std::string& text);
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/generated_mesh.h"
 #include "ros/tf/unit_rotation.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -34,6 +35,11 @@ inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q)
   const std::optional<Quaterniond> rotation = unitRotation(q);
   if (!rotation) return std::nullopt;
   return Isometry3d(Eigen::Translation3d(p) * *rotation);
+}
+
+/// A cone, as messages define it: with its tip along z.
+inline std::shared_ptr<const TriangleMesh> coneShape(double radius, double height) {
+  return std::make_shared<const TriangleMesh>(coneMesh(radius, height));
 }
 
 /// The half-space n·x + d ≤ 0, as messages define planes; none if the normal is 0.

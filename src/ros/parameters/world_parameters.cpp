@@ -20,7 +20,7 @@ WorldObject readObject(ParameterReader& reader) {
   object.frame = reader.name("frame", "");
   object.X_frame_B = readPose(reader);
   WorldShape& made = object.shapes.emplace_back();
-  switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh"}, -1)) {
+  switch (reader.choice("type", {"box", "sphere", "cylinder", "plane", "mesh", "cone"}, -1)) {
     case 0: {
       const Vector3d size = reader.vector("size", Vector3d::Zero());
       if (!(size.minCoeff() > 0.0)) reader.fail("size", "three positive numbers");
@@ -42,8 +42,13 @@ WorldObject readObject(ParameterReader& reader) {
       made.shape = MeshObject{required(reader, "uri"), scale};
       break;
     }
+    case 5: {
+      const double radius = reader.positive("radius", kUnset);
+      made.shape = coneShape(radius, reader.positive("length", kUnset));
+      break;
+    }
     default:
-      reader.fail("type", "one of box sphere cylinder plane mesh");
+      reader.fail("type", "one of box sphere cylinder plane mesh cone");
   }
   reader.finish();
   return object;
@@ -73,21 +78,22 @@ Isometry3d messagePose(ParameterReader& reader) {
   return *pose;
 }
 
-Primitive messagePrimitive(ParameterReader& reader) {
-  constexpr int kBox = 1, kSphere = 2, kCylinder = 3;  // as shape_msgs/SolidPrimitive numbers them
-  const int type = reader.isText("type") ? 1 + reader.choice("type", {"box", "sphere", "cylinder"}, -1)
+decltype(WorldShape::shape) messagePrimitive(ParameterReader& reader) {
+  constexpr int kBox = 1, kSphere = 2, kCylinder = 3, kCone = 4;  // as shape_msgs/SolidPrimitive numbers them
+  const int type = reader.isText("type") ? 1 + reader.choice("type", {"box", "sphere", "cylinder", "cone"}, -1)
                                          : reader.integer("type", 0, 0);
   const std::size_t count = type == kBox ? 3 : type == kSphere ? 1 : 2;
-  if (type < kBox || type > kCylinder) reader.fail("type", "a box, sphere or cylinder");
+  if (type < kBox || type > kCone) reader.fail("type", "a box, sphere, cylinder or cone");
   const std::vector<double> size = reader.numbers("dimensions", count, count);
   for (const double length : size)
     if (!(length > 0.0)) reader.fail("dimensions", "positive numbers");
-  if (type == kBox) return Box{0.5 * Vector3d(size[0], size[1], size[2])};
-  if (type == kSphere) return Sphere{size[0]};
-  return Cylinder{size[1], 0.5 * size[0]};
+  if (type == kBox) return Primitive(Box{0.5 * Vector3d(size[0], size[1], size[2])});
+  if (type == kSphere) return Primitive(Sphere{size[0]});
+  if (type == kCylinder) return Primitive(Cylinder{size[1], 0.5 * size[0]});
+  return coneShape(size[1], size[0]);
 }
 
-Primitive messagePlane(ParameterReader& reader) {
+decltype(WorldShape::shape) messagePlane(ParameterReader& reader) {
   const std::vector<double> coef = reader.numbers("coef", 4, 4);  // a x + b y + c z + d = 0
   const auto solid = solidBelow({coef[0], coef[1], coef[2]}, coef[3]);
   if (!solid) reader.fail("coef", "a normal that is not 0");
