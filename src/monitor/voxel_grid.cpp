@@ -178,7 +178,7 @@ void VoxelGrid::addUnknown(TileMap& occupied) const {
 }
 
 void VoxelGrid::addUnknownNear(const VoxelMask& mask, TileMap& occupied) const {
-  constexpr double kMaxTested = 50.0;  // of the tiles that may be occupied
+  constexpr double kMaxTested = 500.0;  // of the tiles that may be marked; a test takes less than a microsecond
   const double near = options_.near_distance, reach = mask.radius + near;
   const Vector3d half = Vector3d::Constant(0.5 * kTileSide * size_);  // of a tile
   const auto refuse = [&] {
@@ -189,13 +189,20 @@ void VoxelGrid::addUnknownNear(const VoxelMask& mask, TileMap& occupied) const {
   if (tiles.count() > kMaxTested * double(options_.max_tiles)) refuse();
   std::size_t marked = 0;
   tiles.forEach([&](const Vector3i& t) {
-    if (mask.distance(cornerOf(kTileSide * t, size_) + half) > near + half.norm()) return;
-    if (++marked > options_.max_tiles) refuse();
-    const TileBits known_in_tile = known(t);
-    TileBits& bits = occupied[keyOf(t)];
+    checkCancelled();
+    if (!mask.isWithin(near + half.norm(), cornerOf(kTileSide * t, size_) + half)) return;
+    const auto found = occupied.find(keyOf(t));
+    TileBits bits = found == occupied.end() ? TileBits() : found->second;
+    const TileBits given = known(t) | bits;
+    bool is_marked = false;
     visitNear(t, size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-      if (!known_in_tile[i] && mask.isWithin(near, p_M)) bits.set(i);
+      if (given[i] || !mask.isWithin(near, p_M)) return;
+      bits.set(i);
+      is_marked = true;
     });
+    if (!is_marked) return;
+    if (++marked > options_.max_tiles) refuse();
+    occupied[keyOf(t)] = bits;
   });
 }
 

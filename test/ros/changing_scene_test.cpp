@@ -137,7 +137,7 @@ TEST_F(ChangingSceneTest, AConeStandsOnItsBase) {
   cone.primitives[0].dimensions = {0.4, 0.1};
   cone.primitives[0].dimensions[shape_msgs::SolidPrimitive::CONE_HEIGHT] = 0.4;
   apply(cone);
-  const auto& mesh = std::get<std::shared_ptr<const TriangleMesh>>(body("box").geometry[0].shape);
+  const auto mesh = std::get<std::shared_ptr<const TriangleMesh>>(body("box").geometry[0].shape);
   EXPECT_NEAR(signedVolume(*mesh), M_PI * 0.01 * 0.4 / 3.0, 1e-5);
   for (const Vector3d& p : mesh->vertices)
     EXPECT_NEAR(p.head<2>().norm(), p.z() < 0.0 ? 0.1 : 0.0, 1.1e-5) << p.transpose();
