@@ -1,5 +1,5 @@
 #include "box_tree.h"
-#include "common/compiler_lanes.h"
+#include "common/lane_vector.h"
 
 namespace sdf_ccd {
 namespace {
@@ -13,22 +13,13 @@ static_assert(BoxTree::Node::kWidth == kFloatWidth, "a vector holds a node's box
 SDF_CCD_INLINE Floats load(const Lane& lane) {
   return lanes::load(lane.data());
 }
-SDF_CCD_INLINE Floats absolute(const Floats& v) {
-  return larger(v, -v);
-}
 
 SDF_CCD_INLINE Floats squareIfPositive(const Floats& v) {
   const Floats positive = larger(v, Floats{});
   return positive * positive;
 }
 
-/// Three coordinates of eight boxes.
-struct Vectors {
-  Floats x, y, z;
-
-  SDF_CCD_INLINE Floats dot(const Vectors& v) const { return x * v.x + y * v.y + z * v.z; }
-  SDF_CCD_INLINE Floats dot(const std::array<float, 3>& v) const { return x * v[0] + y * v[1] + z * v[2]; }
-};
+using Vectors = LaneVector<Floats>;  // of eight boxes
 
 SDF_CCD_INLINE Vectors load(const std::array<Lane, 3>& v) {
   return {load(v[0]), load(v[1]), load(v[2])};

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/lane_vector.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -15,20 +17,11 @@ constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes w
 constexpr float kUp = 1.0F + 0x1p-20F;
 constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
-struct Vector {
-  Floats x, y, z;
+using Vector = LaneVector<Floats>;
 
-  SDF_CCD_INLINE Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  SDF_CCD_INLINE Vector cross(const Vector& o) const {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-  SDF_CCD_INLINE Floats norm() const {
-    const Floats squared = x * x + y * y + z * z;
-    Floats root;
-    for (int i = 0; i < kFloatWidth; ++i) root[i] = std::sqrt(squared[i]);
-    return root;
-  }
-};
+SDF_CCD_INLINE Floats norm(const Vector& v) {
+  return squareRoot(v.dot(v));
+}
 
 /// The rows of one body, broadcast to all lanes, or of consecutive bodies.
 struct Rows {
@@ -39,10 +32,7 @@ struct Rows {
   }
 };
 struct OneBody : Rows {
-  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const {
-    const float value = *at(row, offset);
-    return Floats{value, value, value, value, value, value, value, value};  // 0 + value takes an addition: −0
-  }
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return Floats{} + *at(row, offset); }
 };
 struct BodiesInRow : Rows {
   SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return load(at(row, offset)); }
@@ -71,9 +61,9 @@ SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
   const Vector omega_a = vectorOf(a, TwistRow::kOmega), omega_b = vectorOf(b, TwistRow::kOmega);
   const Vector d = vectorOf(a, TwistRow::kPoint) - vectorOf(b, TwistRow::kPoint);
   const Vector w = vectorOf(a, TwistRow::kVelocity) - vectorOf(b, TwistRow::kVelocity);
-  const Floats rotation = (omega_a - omega_b).norm();
-  const Floats by_a = (w - omega_b.cross(d)).norm() + rotation * a(TwistRow::kReach) + a(TwistRow::kOpen);
-  const Floats by_b = (w - omega_a.cross(d)).norm() + rotation * b(TwistRow::kReach) + b(TwistRow::kOpen);
+  const Floats rotation = norm(omega_a - omega_b);
+  const Floats by_a = norm(w - omega_b.cross(d)) + rotation * a(TwistRow::kReach) + a(TwistRow::kOpen);
+  const Floats by_b = norm(w - omega_a.cross(d)) + rotation * b(TwistRow::kReach) + b(TwistRow::kOpen);
   const Floats noise = (a(TwistRow::kTurnNoise) + b(TwistRow::kTurnNoise)) * (a(TwistRow::kFar) + b(TwistRow::kFar)) +
                        (a(TwistRow::kShiftNoise) + b(TwistRow::kShiftNoise));
   // The last factor also covers the error of a contact's time, 1e-9 of the path.

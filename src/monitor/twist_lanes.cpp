@@ -2,29 +2,17 @@
 
 #include <cstddef>
 
+#include "common/lane_vector.h"
+
 namespace sdf_ccd {
 namespace {
 
 using namespace lanes;
 
-struct Vector {
-  Doubles x, y, z;
-
-  SDF_CCD_INLINE Vector operator+(const Vector& o) const { return {x + o.x, y + o.y, z + o.z}; }
-  SDF_CCD_INLINE Vector operator-(const Vector& o) const { return {x - o.x, y - o.y, z - o.z}; }
-  SDF_CCD_INLINE Vector operator*(const Doubles& s) const { return {x * s, y * s, z * s}; }
-  SDF_CCD_INLINE Doubles dot(const Vector& o) const { return x * o.x + y * o.y + z * o.z; }
-  SDF_CCD_INLINE Vector cross(const Vector& o) const {
-    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
-  }
-};
-
-SDF_CCD_INLINE Doubles amount(const Doubles& v) {
-  return larger(v, -v);
-}
+using Vector = LaneVector<Doubles>;
 
 SDF_CCD_INLINE Doubles amounts(const Vector& v) {
-  return amount(v.x) + amount(v.y) + amount(v.z);
+  return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
 SDF_CCD_INLINE void store(const Vector& v, TwistLanes::Vector& to) {
@@ -54,7 +42,7 @@ struct Pose {
   /// Upper bound of |RᵀR − 1|, without a square root.
   SDF_CCD_INLINE Doubles defect() const {
     const auto product = [&](int i, int k) __attribute__((always_inline)) {
-      return amount(columns[i].dot(columns[k]) - (i == k ? 1.0 : 0.0));
+      return absolute(columns[i].dot(columns[k]) - (i == k ? 1.0 : 0.0));
     };
     return product(0, 0) + product(1, 1) + product(2, 2) + 2.0 * (product(0, 1) + product(1, 2) + product(2, 0));
   }

@@ -215,7 +215,7 @@ std::size_t VoxelGrid::hide(const VoxelMask& mask, TileMap& occupied) const {
     const TileBits seen = tile != tiles_.end() ? tile->second.occupied : TileBits();
     visitNear(tileOf(key), size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
       if (!bits[i] || (seen[i] && mask.only_unknown)) return;
-      if (!(seen[i] && mask.is_open ? mask.isNearSurface(pad, p_M) : mask.isWithin(pad, p_M))) return;
+      if (!mask.isWithin(pad, p_M, !(seen[i] && mask.is_open))) return;
       bits.reset(i);
       ++hidden;
     });

@@ -22,13 +22,12 @@ struct VoxelMask {
   bool is_open = false;       ///< what is occupied inside is not ignored: a surface has openings, or may have cavities
   bool only_unknown = false;  ///< ignores only unknown voxels: when the map was made, the solid may have been elsewhere
 
-  /// Whether the solid, or its surface alone, is within a limit of a point [m].
-  bool isWithin(double limit, const Vector3d& p_M) const {
+  /// Whether it is within a limit of a point [m]; its surface alone, unless what is inside counts.
+  bool isWithin(double limit, const Vector3d& p_M, bool inside_counts = true) const {
     const double bound = distance(p_M);
-    return bound <= limit && (!(bound > 0.0) || !surface_distance || surface_distance(p_M, limit) <= limit);
-  }
-  bool isNearSurface(double limit, const Vector3d& p_M) const {
-    return distance(p_M) <= limit && (!surface_distance || surface_distance(p_M, limit) <= limit);
+    if (!(bound <= limit)) return false;
+    const bool is_known = inside_counts && bound <= 0.0;
+    return is_known || !surface_distance || surface_distance(p_M, limit) <= limit;
   }
 };
 

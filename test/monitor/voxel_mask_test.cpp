@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include "monitor/scene_case.h"
 #include "monitor/voxel_case.h"
@@ -69,6 +71,15 @@ SceneDescription besideAMap(std::vector<BodyDescription> bodies) {
   return description;
 }
 
+/// The ring's mask, and what that refers to.
+struct RingBesideAMap {
+  explicit RingBesideAMap(const BodyOptions& options) : scene(build(description, options)) {}
+
+  SceneDescription description = besideAMap({ring()});
+  std::shared_ptr<const Scene> scene;
+  std::optional<VoxelMask> mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
+};
+
 /// Whether the mask hides exactly what is within the padding of the ring; of 400 voxels around it.
 /// @param error  of the fields: as far from the surface, either answer is right [m].
 void expectHidden(const VoxelMask& mask, double error) {
@@ -94,7 +105,6 @@ void expectHidden(const VoxelMask& mask, double error) {
 
 /// In cells without samples, and beside large leaves, the error of a sample is larger than its value.
 TEST(VoxelMask, NoFieldHidesVoxelsBeyondThePadding) {
-  const SceneDescription description = besideAMap({ring()});
   FieldOptions coarse, fine_cells, loose, close;
   coarse.cells = 32;
   fine_cells.cells = 100;
@@ -103,15 +113,13 @@ TEST(VoxelMask, NoFieldHidesVoxelsBeyondThePadding) {
   for (const FieldOptions& field : {coarse, fine_cells, loose, close}) {
     BodyOptions options = fine();
     options.field = field;
-    const auto scene = build(description, options);
-    const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-    ASSERT_TRUE(mask);
-    expectHidden(*mask, maskError(*scene));
+    const RingBesideAMap ring(options);
+    ASSERT_TRUE(ring.mask);
+    expectHidden(*ring.mask, maskError(*ring.scene));
   }
-  const auto scene = build(description, optionsForContacts());
-  const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-  ASSERT_TRUE(mask);
-  expectHidden(*mask, maskError(*scene));
+  const RingBesideAMap ring(optionsForContacts());
+  ASSERT_TRUE(ring.mask);
+  expectHidden(*ring.mask, maskError(*ring.scene));
 }
 
 /// Two slabs with a jaw of 20 cm between them, with the options of the node.
@@ -143,29 +151,25 @@ TEST(VoxelMask, ABodyWithoutItsSurfaceHidesNoMore) {
 }
 
 TEST(VoxelMask, HidesUnknownSpaceAsOccupiedSpace) {
-  const SceneDescription description = besideAMap({ring()});
-  const auto scene = build(description, optionsForContacts());
-  const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-  ASSERT_TRUE(mask);
+  const RingBesideAMap ring(optionsForContacts());
+  ASSERT_TRUE(ring.mask);
   VoxelMapOptions unknown;
   unknown.unknown = UnknownSpace::kOccupied;
   VoxelMap map("map", "world", unknown);
   Kept kept;
-  kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*mask}));
+  kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*ring.mask}));
   EXPECT_LT(kept.distance(Vector3d::Constant(0.025)), 0.0) << "unknown space within the ring";
   EXPECT_GT(kept.distance({kRing, 0.0, 0.0}), 0.0) << "unknown space in the ring's tube";
 }
 
 /// A field's lower bound is loose far from the surface.
 TEST(VoxelMask, UnknownSpaceFarFromABodyIsNotNearIt) {
-  const SceneDescription description = besideAMap({ring()});
-  const auto scene = build(description, optionsForContacts());
-  const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());
-  ASSERT_TRUE(mask);
+  const RingBesideAMap ring(optionsForContacts());
+  ASSERT_TRUE(ring.mask);
   VoxelMapOptions options;
   options.unknown = UnknownSpace::kOccupiedNear;
   options.near_distance = 0.2;
-  for (const auto& [key, bits] : gridOf({}, options).occupied({*mask}).tiles) {
+  for (const auto& [key, bits] : gridOf({}, options).occupied({*ring.mask}).tiles) {
     for (std::size_t i = 0; i < bits.size(); ++i) {
       if (!bits[i]) continue;
       const auto k = static_cast<int>(i);

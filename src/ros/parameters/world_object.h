@@ -21,7 +21,8 @@ struct MeshObject {
 };
 
 struct WorldShape {
-  std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>> shape;
+  using Shape = std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>>;
+  Shape shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };
 
@@ -37,9 +38,28 @@ inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q)
   return Isometry3d(Eigen::Translation3d(p) * *rotation);
 }
 
-/// A cone, as messages define it: with its tip along z.
-inline std::shared_ptr<const TriangleMesh> coneShape(double radius, double height) {
+/// A cone with its tip along z.
+inline WorldShape::Shape coneShape(double radius, double height) {
   return std::make_shared<const TriangleMesh>(coneMesh(radius, height));
+}
+
+/// Boxes, spheres, cylinders and cones, as shape_msgs/SolidPrimitive numbers them and orders their dimensions.
+enum class SolidType { kBox = 1, kSphere, kCylinder, kCone };
+
+inline bool isSolidType(int type) {
+  return type >= static_cast<int>(SolidType::kBox) && type <= static_cast<int>(SolidType::kCone);
+}
+
+inline std::size_t dimensionsOf(SolidType type) {
+  return type == SolidType::kBox ? 3 : type == SolidType::kSphere ? 1 : 2;
+}
+
+/// @param size  dimensionsOf(type) positive lengths [m].
+inline WorldShape::Shape solidShape(SolidType type, const std::vector<double>& size) {
+  if (type == SolidType::kBox) return Primitive(Box{0.5 * Vector3d(size[0], size[1], size[2])});
+  if (type == SolidType::kSphere) return Primitive(Sphere{size[0]});
+  if (type == SolidType::kCylinder) return Primitive(Cylinder{size[1], 0.5 * size[0]});
+  return coneShape(size[1], size[0]);
 }
 
 /// The half-space n·x + d ≤ 0, as messages define planes; none if the normal is 0.

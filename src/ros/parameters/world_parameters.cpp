@@ -78,22 +78,18 @@ Isometry3d messagePose(ParameterReader& reader) {
   return *pose;
 }
 
-decltype(WorldShape::shape) messagePrimitive(ParameterReader& reader) {
-  constexpr int kBox = 1, kSphere = 2, kCylinder = 3, kCone = 4;  // as shape_msgs/SolidPrimitive numbers them
-  const int type = reader.isText("type") ? 1 + reader.choice("type", {"box", "sphere", "cylinder", "cone"}, -1)
-                                         : reader.integer("type", 0, 0);
-  const std::size_t count = type == kBox ? 3 : type == kSphere ? 1 : 2;
-  if (type < kBox || type > kCone) reader.fail("type", "a box, sphere, cylinder or cone");
-  const std::vector<double> size = reader.numbers("dimensions", count, count);
+WorldShape::Shape messagePrimitive(ParameterReader& reader) {
+  const int number = reader.isText("type") ? 1 + reader.choice("type", {"box", "sphere", "cylinder", "cone"}, -1)
+                                           : reader.integer("type", 0, 0);
+  if (!isSolidType(number)) reader.fail("type", "a box, sphere, cylinder or cone");
+  const auto type = static_cast<SolidType>(number);
+  const std::vector<double> size = reader.numbers("dimensions", dimensionsOf(type), dimensionsOf(type));
   for (const double length : size)
     if (!(length > 0.0)) reader.fail("dimensions", "positive numbers");
-  if (type == kBox) return Primitive(Box{0.5 * Vector3d(size[0], size[1], size[2])});
-  if (type == kSphere) return Primitive(Sphere{size[0]});
-  if (type == kCylinder) return Primitive(Cylinder{size[1], 0.5 * size[0]});
-  return coneShape(size[1], size[0]);
+  return solidShape(type, size);
 }
 
-decltype(WorldShape::shape) messagePlane(ParameterReader& reader) {
+Primitive messagePlane(ParameterReader& reader) {
   const std::vector<double> coef = reader.numbers("coef", 4, 4);  // a x + b y + c z + d = 0
   const auto solid = solidBelow({coef[0], coef[1], coef[2]}, coef[3]);
   if (!solid) reader.fail("coef", "a normal that is not 0");

@@ -44,7 +44,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
   SceneDescription scene;
   scene.visual_only = start_up_->visual_only;
-  scene.has_live_map = start_up_->has_live_map;
+  scene.has_live_map = !start_up_->tiles_begin.empty();
   scene.bodies = start_up_->links;
   std::vector<const Object*> ordered;
   for (const auto& [name, object] : objects_) ordered.push_back(&object);

@@ -54,7 +54,6 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   start_up->tiles_begin = described.tiles_begin;
   start_up->rules = rules;
   start_up->visual_only = first.visual_only;
-  start_up->has_live_map = first.has_live_map;
   start_up->allowed = first.allowed;
   start_up->unreachable = described.unreachable;
   for (const UnreachablePair& pair : described.unreachable)

@@ -12,7 +12,6 @@ struct ChangingScene::StartUp {
   std::vector<BodyDescription> links;
   std::set<std::string> link_names;  // of the robot, bodies or not
   std::vector<std::string> visual_only;
-  bool has_live_map = false;
   std::vector<AllowedPair> allowed;
   std::vector<UnreachablePair> unreachable;
   std::vector<NamePair> unreachable_names;

@@ -14,27 +14,18 @@ namespace {
   throw std::invalid_argument(what);
 }
 
-decltype(WorldShape::shape) toShape(const shape_msgs::SolidPrimitive& message, const std::string& name) {
-  using shape_msgs::SolidPrimitive;
+WorldShape::Shape toShape(const shape_msgs::SolidPrimitive& message, const std::string& name) {
   const std::vector<double>& size = message.dimensions;
-  const std::size_t expected = message.type == SolidPrimitive::BOX ? 3 : message.type == SolidPrimitive::SPHERE ? 1 : 2;
-  if (message.type < SolidPrimitive::BOX || message.type > SolidPrimitive::CONE)
+  if (!isSolidType(message.type))
     refuse(name + ": type " + std::to_string(message.type) + " is not supported, only BOX, SPHERE, CYLINDER and CONE");
-  if (size.size() != expected)
-    refuse(name + " has " + std::to_string(size.size()) + " dimensions instead of " + std::to_string(expected));
+  const auto type = static_cast<SolidType>(message.type);
+  if (size.size() != dimensionsOf(type))
+    refuse(name + " has " + std::to_string(size.size()) + " dimensions instead of " +
+           std::to_string(dimensionsOf(type)));
   for (const double length : size)
     if (!(length > 0.0) || !(length <= kFarthestPose))
       refuse(name + ": dimension " + numberText(length) + " m is not positive, or too large");
-  switch (message.type) {
-    case SolidPrimitive::BOX:
-      return Primitive(Box{0.5 * Vector3d(size[0], size[1], size[2])});
-    case SolidPrimitive::SPHERE:
-      return Primitive(Sphere{size[0]});
-    case SolidPrimitive::CYLINDER:
-      return Primitive(Cylinder{size[SolidPrimitive::CYLINDER_RADIUS], 0.5 * size[SolidPrimitive::CYLINDER_HEIGHT]});
-    default:
-      return coneShape(size[SolidPrimitive::CONE_RADIUS], size[SolidPrimitive::CONE_HEIGHT]);
-  }
+  return solidShape(type, size);
 }
 
 std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, const std::string& name,
@@ -103,7 +94,7 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
       if (!poses.empty()) shape.X_BG = poseIn(poses[i]).value_or(Isometry3d::Identity());
     }
   };
-  using Shape = decltype(WorldShape::shape);
+  using Shape = WorldShape::Shape;
   add(message.primitives, message.primitive_poses, "primitives",
       [](const auto& primitive, const std::string& name, std::size_t) { return toShape(primitive, name); });
   add(message.planes, message.plane_poses, "planes",

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+
+#include "common/compiler_lanes.h"
+
+namespace sdf_ccd::lanes {
+
+/// Three coordinates in each lane.
+template <class Lanes>
+struct LaneVector {
+  Lanes x, y, z;
+
+  SDF_CCD_INLINE LaneVector operator+(const LaneVector& o) const { return {x + o.x, y + o.y, z + o.z}; }
+  SDF_CCD_INLINE LaneVector operator-(const LaneVector& o) const { return {x - o.x, y - o.y, z - o.z}; }
+  SDF_CCD_INLINE LaneVector operator*(const Lanes& s) const { return {x * s, y * s, z * s}; }
+  SDF_CCD_INLINE Lanes dot(const LaneVector& o) const { return x * o.x + y * o.y + z * o.z; }
+  template <class Number>
+  SDF_CCD_INLINE Lanes dot(const std::array<Number, 3>& o) const {
+    return x * o[0] + y * o[1] + z * o[2];
+  }
+  SDF_CCD_INLINE LaneVector cross(const LaneVector& o) const {
+    return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x};
+  }
+};
+
+template <class Lanes>
+SDF_CCD_INLINE Lanes absolute(const Lanes& v) {
+  return larger(v, -v);
+}
+
+}  // namespace sdf_ccd::lanes
