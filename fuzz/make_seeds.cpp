@@ -141,7 +141,8 @@ class Seeds {
         "name\n* a\n0 0 0\n0 0 0 1\n2\nbox\n1 2 3\n0 0 0\n0 0 0 1\n0 0 0 0\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n0 0 "
         "2\n0 0 0 1\n0 0 "
         "0 0\n1\nsub\n0 0 0\n0 0 0 1\n.\n");
-    add("moveit_scene", "before", "(noname)+\n* b\n1\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
+    add("moveit_scene", "before",
+        "(noname)+\n* b\n2\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n1 0 0 1\ncone\n1 2\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
     add("segments", "header", "ox,oy,oz,ex,ey,ez\n0,0,0,1,1,1\n-1e-3, 2.5,0,1,.5,0x1p3\r\n\n");
     for (const char* target : {"query_motion", "query_points", "transforms", "update_scene"}) {
       for (int k = 1; k < 32; ++k) {

@@ -1,0 +1,101 @@
+#include "ros/changing_scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+using ChangingSceneAttachTest = ChangingSceneCase;
+
+TEST_F(ChangingSceneAttachTest, AttachesWhereTheObjectIs) {
+  apply(box());
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link = "tip";
+  apply(attach);
+  EXPECT_EQ(body("box").frame, "tip");
+  EXPECT_FALSE(body("box").is_world);
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 0.5, 1e-9);  // the tip is at 2.5, the box at 3
+  // Links that cannot move relative to the tip are not checked; the base and the table are.
+  EXPECT_EQ(reason("box", "tool"), "rigidly joined");
+  EXPECT_EQ(reason("box", "arm"), "rigidly joined");
+  EXPECT_EQ(reason("box", "base"), "checked");
+  EXPECT_EQ(reason("box", "table"), "checked");
+  attach.touch_links = {"ba*", "table"};
+  apply(attach);
+  EXPECT_EQ(reason("box", "base"), "attached, and allowed by touch_links");
+  EXPECT_EQ(reason("box", "table"), "checked") << "it is neither a link nor attached";
+  EXPECT_NE(refusal(change(SceneChange::MOVE)).find("attached to tip"), std::string::npos);
+
+  SceneChange detach = change(SceneChange::DETACH);
+  detach.header.frame_id = "belt";
+  apply(detach);
+  EXPECT_TRUE(body("box").is_world);
+  EXPECT_EQ(body("box").frame, "belt");
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 3.0 - 7.0, 1e-9);
+  EXPECT_EQ(reason("box", "base"), "checked");
+  EXPECT_EQ(refusal(detach), "box is not attached");
+}
+
+TEST_F(ChangingSceneAttachTest, AttachesWithOtherShapes) {
+  apply(box());
+  SceneChange attach = box();
+  attach.type = SceneChange::ATTACH;
+  attach.link = "tip";
+  attach.primitives[0].dimensions = {0.4, 0.4, 0.4};
+  attach.pose = geometry_msgs::Pose();
+  const Isometry3d before = body("box").X_frame_B;
+  apply(attach);
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.2, 0.2, 0.2));
+  EXPECT_EQ(body("box").frame, "tip");
+  // Without a pose it stays where it was: the tip is at 2.5 m.
+  EXPECT_NEAR((body("box").X_frame_B.translation() - (before.translation() - Vector3d(2.5, 0, 0))).norm(), 0.0, 1e-9);
+}
+
+TEST_F(ChangingSceneAttachTest, AttachesAndDetachesByTransformsOfOneTime) {
+  SceneChange added = box();
+  added.header.frame_id = "belt";  // 5 m beyond the arm, moving with it; the arm's transforms come later
+  added.pose.position.x = 0.0;
+  apply(added);
+  history_.add(message({stampedTransform("base", "belt", kNow + 0.1, 9.0)}), false);
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link = "arm";
+  apply(attach);
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 5.0, 1e-9);  // 7 - 2, both at kNow
+  SceneChange detach = change(SceneChange::DETACH);
+  detach.header.frame_id = "belt";
+  apply(detach);
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 0.0, 1e-9);
+}
+
+TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
+  BodyDescription tile;
+  tile.name = "octomap/0_0_0";
+  tile.frame = "base";
+  tile.is_world = true;
+  scene_->setTiles({tile});
+  SceneChange attach = box();
+  attach.type = SceneChange::ATTACH;
+  attach.link = "tip";
+  attach.touch_links = {"*"};
+  SceneChange other = box("other");
+  other.type = SceneChange::ATTACH;
+  other.link = "base";
+  apply({attach, other, box("crate")});
+  EXPECT_EQ(reason("box", "base"), "attached, and allowed by touch_links");
+  EXPECT_EQ(reason("other", "box"), "attached, and allowed by touch_links");
+  for (const char* object : {"table", "crate", "octomap/0_0_0"}) EXPECT_EQ(reason("box", object), "checked") << object;
+}
+
+TEST_F(ChangingSceneAttachTest, AttachesWhatIsNotThereYet) {
+  SceneChange attach = box();
+  attach.type = SceneChange::ATTACH;
+  attach.link = "tip";
+  apply(attach);
+  EXPECT_EQ(body("box").frame, "tip");
+  EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
+  attach.link = "nowhere";
+  EXPECT_EQ(refusal(attach), "the robot has no link nowhere");
+}
+
+}  // namespace
+}  // namespace sdf_ccd

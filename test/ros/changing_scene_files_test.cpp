@@ -1,0 +1,112 @@
+#include <filesystem>
+#include <fstream>
+
+#include "oracle/mesh_bytes.h"
+#include "oracle/shapes.h"
+#include "ros/changing_scene_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+using ChangingSceneFilesTest = ChangingSceneCase;
+
+TEST_F(ChangingSceneFilesTest, TrianglesOfMeshFilesCountAgainstTheLimit) {
+  test::writeText(folder_ / "ball.off", test::off(test::icosphere(0.1, 1)));  // 80 triangles
+  SceneChange ball = change(SceneChange::ADD, "ball");
+  ball.mesh_resources = {(folder_ / "ball.off").string()};
+  limits_.triangles = 160;
+  SceneChange other = ball;
+  other.object = "other";
+  apply({ball, other});
+  limits_.triangles = 159;
+  const std::string refused = failureOf<std::exception>([&] { apply({ball, other}); });
+  EXPECT_NE(refused.find("more triangles than one call may hold"), std::string::npos) << refused;
+}
+
+TEST_F(ChangingSceneFilesTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved) {
+  for (const char* name : {" a", "a ", " "}) {
+    EXPECT_EQ(refusal(box(name)).find("object '" + std::string(name) + "': a name must not be empty, begin or end"),
+              0u);
+    SceneChange attach = box(name);
+    attach.type = SceneChange::ATTACH;
+    attach.link = "tool";
+    EXPECT_NE(refusal(attach), "") << name;
+  }
+  EXPECT_EQ(refusal(box("a b")), "");
+  // A world file may have named it so; when read back, it would be another object.
+  BodyDescription trailing = body("a b");
+  trailing.name = "a ";
+  scene_->set(trailing);
+  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
+  EXPECT_NE(test::failureOf<std::invalid_argument>([&] { scene_->text(sources, sources.warnings); }).find("'a '"),
+            std::string::npos);
+}
+
+TEST_F(ChangingSceneFilesTest, ReadsNoFilesButThoseBelowTheRoots) {
+  SceneChange bad = change(SceneChange::ADD);
+  for (const std::string& uri : {std::string("file:///etc/passwd"), std::string("/etc/passwd"),
+                                 folder_.string() + "/../passwd", std::string("mesh.stl")}) {
+    bad.mesh_resources = {uri};
+    EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos) << refusal(bad);
+  }
+  std::filesystem::create_symlink("/etc", folder_ / "link");
+  bad.mesh_resources = {(folder_ / "link/passwd").string()};
+  EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos);
+  bad = change(SceneChange::LOAD, "");
+  bad.file = "/etc/world.yaml";
+  EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos);
+  std::ofstream(folder_ / "tetra.off")
+      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  SceneChange good = change(SceneChange::ADD);
+  good.mesh_resources = {"file://" + (folder_ / "tetra.off").string()};
+  EXPECT_EQ(refusal(good), "");
+}
+
+TEST_F(ChangingSceneFilesTest, ARootMayComeLater) {
+  const std::filesystem::path later = folder_ / "later";
+  const RequestFiles files({later.string()}, [](const std::string&) { return Resource(); });
+  const std::string file = (later / "a.off").string();
+  EXPECT_THROW(files.path(file), std::runtime_error);
+  std::filesystem::create_directory(later);
+  EXPECT_EQ(files.path(file), std::filesystem::canonical(later).string() + "/a.off");
+}
+
+TEST_F(ChangingSceneFilesTest, WhatIsWrittenIsReadAgain) {
+  SceneChange all = box("all");
+  all.primitives.resize(3);
+  all.primitives[1].type = shape_msgs::SolidPrimitive::SPHERE;
+  all.primitives[1].dimensions = {0.1};
+  all.primitives[2].type = shape_msgs::SolidPrimitive::CYLINDER;
+  all.primitives[2].dimensions = {0.5, 0.1};
+  all.planes.resize(1);
+  all.planes[0].coef = {{0, 0, 2, 1}};
+  all.meshes.resize(1);
+  all.meshes[0].vertices.resize(3);
+  all.meshes[0].vertices[1].x = all.meshes[0].vertices[2].y = 1.0 / 3.0;
+  all.meshes[0].triangles.resize(1);
+  all.meshes[0].triangles[0].vertex_indices = {{0, 1, 2}};
+  all.header.frame_id = "belt";
+  apply(all);
+  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
+  std::ofstream(folder_ / "world.scene") << scene_->text(sources, sources.warnings);
+  SceneChange load = change(SceneChange::LOAD, "");
+  load.file = (folder_ / "world.scene").string();
+  const BodyDescription before = body("all");
+  apply({change(SceneChange::CLEAR, ""), load});
+  const BodyDescription after = body("all");
+  EXPECT_EQ(after.frame, "base");
+  EXPECT_NEAR((after.X_frame_B.translation() - Vector3d(10, 0, 0)).norm(), 0.0, 1e-12);
+  ASSERT_EQ(after.geometry.size(), before.geometry.size());
+  for (std::size_t i = 0; i < after.geometry.size(); ++i)
+    ASSERT_EQ(after.geometry[i].shape.index(), before.geometry[i].shape.index());
+  const auto& plane = std::get<HalfSpace>(std::get<Primitive>(after.geometry[3].shape));
+  EXPECT_EQ(plane.offset, -0.5);
+  const auto& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(after.geometry[4].shape);
+  EXPECT_EQ(mesh.vertices[1].x(), 1.0 / 3.0);
+  EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"all", "table"}));
+}
+
+}  // namespace
+}  // namespace sdf_ccd
