@@ -85,13 +85,29 @@ Vector3d MeasuredTriangle::closest(const Vector3d& p) const {
   return sliver_ ? closestOnSliver(a_, b_, c_, p) : closestByRegions(a_, b_, c_, p);
 }
 
-double solidAngleFraction(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
-  const Vector3d pa = a - p, pb = b - p, pc = c - p;
+void SolidAngleSum::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const Vector3d pa = a - p_, pb = b - p_, pc = c - p_;
   const double la = pa.norm(), lb = pb.norm(), lc = pc.norm();
-  const double numerator = pa.dot(pb.cross(pc));
-  const double denominator = la * lb * lc + pa.dot(pb) * lc + pb.dot(pc) * la + pc.dot(pa) * lb;
+  const double y = pa.dot(pb.cross(pc));
+  const double x = la * lb * lc + pa.dot(pb) * lc + pb.dot(pc) * la + pc.dot(pa) * lb;
+  if (x == 0.0 && y == 0.0) return;
+  const double real = real_ * x - imaginary_ * y, imaginary = real_ * y + imaginary_ * x;
+  // Two arguments of one sign, whose sum has the other, have passed ±π.
+  const bool up = imaginary_ >= 0.0;
+  if (up == (y >= 0.0) && up != (imaginary >= 0.0)) turns_ += up ? 1.0 : -1.0;
+  real_ = real;
+  imaginary_ = imaginary;
+  constexpr double kSmall = 1e-100, kLarge = 1e100;
+  const double size = std::abs(real) + std::abs(imaginary);
+  if (size > kSmall && size < kLarge) return;
+  turns_ = value();
+  real_ = 1.0;
+  imaginary_ = 0.0;
+}
+
+double SolidAngleSum::value() const {
   constexpr double kTwoPi = 6.28318530717958647692;
-  return std::atan2(numerator, denominator) / kTwoPi;
+  return turns_ + std::atan2(imaginary_, real_) / kTwoPi;
 }
 
 }  // namespace sdf_ccd

@@ -43,10 +43,25 @@ class MeasuredTriangle {
   FlatCylinder disc_;  ///< in its plane; for a sliver a sphere
 };
 
-/// Signed solid angle of the triangle seen from p, over 4π: positive where p lies behind the counter-clockwise
-/// side. Zero at the corners and along the edges, ±½ inside the triangle, never NaN.
+/// Sum of the signed solid angles of triangles seen from p, over 4π: each is positive where p lies behind the
+/// counter-clockwise side, zero at the corners and along the edges, ±½ inside the triangle. Never NaN.
+///
+/// Half a solid angle is the argument of a complex number. The sum is that of their product, and of the turns that it
+/// has made: one arc tangent for all triangles.
 ///
 /// Source: Van Oosterom & Strackee 1983, Eq. (8).
-double solidAngleFraction(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p);
+class SolidAngleSum {
+ public:
+  explicit SolidAngleSum(const Vector3d& p) : p_(p) {}
+
+  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+
+  double value() const;
+
+ private:
+  Vector3d p_;
+  double real_ = 1.0, imaginary_ = 0.0;
+  double turns_ = 0.0;  // of the product, and its argument when it was last scaled to 1
+};
 
 }  // namespace sdf_ccd

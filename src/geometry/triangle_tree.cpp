@@ -117,6 +117,7 @@ void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector
 TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, double accuracy, double bound) const {
   const double accuracy2 = accuracy * accuracy;
   BoundedNumber sum;
+  SolidAngleSum near(p);
   std::array<std::int32_t, kStackSize> stack;
   int size = 0;
   stack[size++] = 0;
@@ -141,9 +142,10 @@ TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, doubl
     }
     sum.visited += static_cast<std::size_t>(node.count);
     for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      sum.value += solidAngleFraction(triangles_[i].a(), triangles_[i].b(), triangles_[i].c(), p);
+      near.add(triangles_[i].a(), triangles_[i].b(), triangles_[i].c());
     }
   }
+  sum.value += near.value();
   return sum;
 }
 

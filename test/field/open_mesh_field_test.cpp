@@ -2,12 +2,12 @@
 
 #include "geometry/openings.h"
 #include "geometry/solid_boundary.h"
-#include "geometry/triangle.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
+#include "oracle/winding_number.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
@@ -209,10 +209,7 @@ TEST_P(RealOpenMesh, SamplesHold) {
     const DistanceField field = buildField(mesh, options);
     for (int i = 0; i < 300; ++i) {
       const Vector3d p = test::uniformIn(random, boundingBox(mesh));
-      double winding = 0.0;
-      for (const Vector3i& t : closed.triangles) {
-        winding += solidAngleFraction(closed.vertices[t[0]], closed.vertices[t[1]], closed.vertices[t[2]], p);
-      }
+      const double winding = test::windingNumber(closed, p);
       const double truth = (std::abs(winding) > 0.5 ? -1.0 : 1.0) * distance(closed, p);
       const FieldSample sample = field.sample(p);
       ASSERT_LE(sample.value - truth, sample.error + 1e-6 * size) << p.transpose();

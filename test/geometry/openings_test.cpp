@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle.h"
 #include "oracle/open_shapes.h"
 #include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
+#include "oracle/winding_number.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/import/mesh_file.h"
@@ -16,15 +16,6 @@ namespace {
 
 using test::distance;
 using test::Random;
-
-/// By the definition: all triangles' solid angles, summed.
-double winding(const TriangleMesh& mesh, const Vector3d& p) {
-  double sum = 0.0;
-  for (const Vector3i& t : mesh.triangles) {
-    sum += solidAngleFraction(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
-  }
-  return sum;
-}
 
 TriangleMesh closedMesh(const TriangleMesh& mesh, const Openings& openings) {
   return welded(merged(mesh, openings.caps));
@@ -117,7 +108,7 @@ TEST(Openings, CracksGetSlivers) {
       for (int i = 0; i < 200; ++i) {
         const Vector3d p = test::uniformIn(random, boundingBox(mesh));
         if (distance(mesh, p) < 1e-3) continue;
-        EXPECT_NEAR(winding(closed, p), winding(mesh, p), 1e-9);
+        EXPECT_NEAR(test::windingNumber(closed, p), test::windingNumber(mesh, p), 1e-9);
       }
     }
   }
@@ -146,8 +137,8 @@ TEST(Openings, JunctionsWithoutSharedVerticesGetSlivers) {
     EXPECT_LE(largestReach(openings), 3 * crack + 1e-12);
     const TriangleMesh closed = closedMesh(box, openings);
     EXPECT_TRUE(isClosed(closed));
-    EXPECT_NEAR(winding(closed, {0.3, 0.2, 0.9}), 1.0, 1e-9);
-    EXPECT_NEAR(winding(closed, {0.3, 0.2, 1.1}), 0.0, 1e-9);
+    EXPECT_NEAR(test::windingNumber(closed, {0.3, 0.2, 0.9}), 1.0, 1e-9);
+    EXPECT_NEAR(test::windingNumber(closed, {0.3, 0.2, 1.1}), 0.0, 1e-9);
   }
 }
 
@@ -175,7 +166,7 @@ TEST(Openings, PanelsWithWideGapsEncloseWhatIsBetween) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     const Vector3d p = test::uniformIn(random, {Vector3d::Constant(-0.8), Vector3d::Constant(0.8)});
-    EXPECT_GT(std::abs(winding(closed, p)), 0.5) << p.transpose();
+    EXPECT_GT(std::abs(test::windingNumber(closed, p)), 0.5) << p.transpose();
   }
 }
 

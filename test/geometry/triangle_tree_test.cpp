@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/triangle.h"
+#include "oracle/random.h"
 #include "oracle/shapes.h"
+#include "oracle/winding_number.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,14 +41,6 @@ double bruteDistance(const TriangleMesh& mesh, const Vector3d& p) {
     best = std::min(best, (q - p).norm());
   }
   return best;
-}
-
-double bruteWinding(const TriangleMesh& mesh, const Vector3d& p) {
-  double sum = 0;
-  for (const Vector3i& t : mesh.triangles) {
-    sum += solidAngleFraction(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
-  }
-  return sum;
 }
 
 TEST(TriangleTree, ClosestPointEqualsBruteForce) {
@@ -120,7 +114,7 @@ TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
     const Vector3d p = randomPoint(random, 1.5);
-    EXPECT_NEAR(tree.windingNumber(p, TriangleTree::kInfinity), bruteWinding(mesh, p), 1e-11);
+    EXPECT_NEAR(tree.windingNumber(p, TriangleTree::kInfinity), test::windingNumber(mesh, p), 1e-11);
   }
 }
 
@@ -131,7 +125,7 @@ TEST(TriangleTree, FastWindingNumberIsNearAndConvergesWithAccuracy) {
   double worst2 = 0, worst4 = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vector3d p = randomPoint(random, 1.5);
-    const double exact = bruteWinding(mesh, p);
+    const double exact = test::windingNumber(mesh, p);
     worst2 = std::max(worst2, std::abs(tree.windingNumber(p) - exact));
     worst4 = std::max(worst4, std::abs(tree.windingNumber(p, 4) - exact));
   }
@@ -152,7 +146,7 @@ TEST(TriangleTree, ExpansionHoldsForOpenMeshes) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = randomPoint(random, 3);
-    EXPECT_NEAR(tree.windingNumber(p), bruteWinding(mesh, p), 0.01);
+    EXPECT_NEAR(tree.windingNumber(p), test::windingNumber(mesh, p), 0.01);
   }
 }
 
@@ -197,7 +191,7 @@ TEST(TriangleTree, InsideAgreesWithTheFullWindingNumber) {
   int inside = 0;
   for (int i = 0; i < 3000; ++i) {
     const Vector3d p = randomPoint(random, 1.5);
-    const double whole = bruteWinding(closed, p), part = bruteWinding(open, p);
+    const double whole = test::windingNumber(closed, p), part = test::windingNumber(open, p);
     EXPECT_EQ(closed_tree.inside(p, TriangleTree::Inside::kNotZero), std::abs(whole) > 0.5);
     inside += std::abs(whole) > 0.5;
     if (std::abs(part - 0.5) < 1e-5) continue;
@@ -232,7 +226,7 @@ TEST(TriangleTree, ManyEqualAndManyNestedTrianglesKeepTheTreeShallow) {
   const TriangleTree tree(mesh);
   for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0.3, 0.2, 0.1), Vector3d(2, 2, 2)}) {
     EXPECT_DOUBLE_EQ(tree.closestPoint(p).distance, bruteDistance(mesh, p));
-    EXPECT_NEAR(tree.windingNumber(p), bruteWinding(mesh, p), 2.0);
+    EXPECT_NEAR(tree.windingNumber(p), test::windingNumber(mesh, p), 2.0);
   }
 }
 
@@ -274,8 +268,37 @@ TEST(Triangle, DegenerateTrianglesHaveNoSolidAngleAndNoNan) {
   const Vector3d a(0, 0, 0), b(1, 0, 0);
   EXPECT_EQ(closestOnTriangle(a, a, a, b), a);
   EXPECT_TRUE(closestOnTriangle(a, b, a, Vector3d(0.5, 1, 0)).isApprox(Vector3d(0.5, 0, 0)));
-  EXPECT_EQ(solidAngleFraction(a, a, a, a), 0);
-  EXPECT_EQ(solidAngleFraction(a, b, a, Vector3d(0.5, 1, 0)), 0);
+  SolidAngleSum at_corner(a), beside(Vector3d(0.5, 1, 0));
+  at_corner.add(a, a, a);
+  EXPECT_EQ(at_corner.value(), 0);
+  beside.add(a, b, a);
+  EXPECT_EQ(beside.value(), 0);
+}
+
+TEST(SolidAngleSum, EqualsTheSumOfArcTangents) {
+  test::Random random(11);
+  for (const double size : {1e-9, 1e-3, 1.0, 1e6}) {
+    for (int round = 0; round < 200; ++round) {
+      // Mostly near p, and some flat before it, so that the sum goes through many turns in either direction.
+      TriangleMesh mesh;
+      const Vector3d p = size * test::uniformIn(random, AlignedBox3d(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)));
+      const double sign = round % 2 == 0 ? 1.0 : -1.0, height = std::pow(10.0, -(round % 9));
+      SolidAngleSum sum(p);
+      for (int i = 0; i < 40; ++i) {
+        std::array<Vector3d, 3> corners;
+        for (int k = 0; k < 3; ++k) {
+          const double angle = sign * (2.0 * k + test::uniform(random, 0, 1)) * M_PI / 3.0;
+          corners[k] = p + size * Vector3d(std::cos(angle), std::sin(angle), -height * test::uniform(random, 0.1, 1));
+        }
+        if (i % 8 == 7) std::swap(corners[0], corners[1]);
+        for (const Vector3d& corner : corners) mesh.vertices.push_back(corner);
+        mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+        sum.add(corners[0], corners[1], corners[2]);
+        ASSERT_NEAR(sum.value(), test::windingNumber(mesh, p), 1e-13 * (i + 1) / height) << size << " " << height;
+      }
+      EXPECT_GT(std::abs(sum.value()), 2.0);
+    }
+  }
 }
 
 }  // namespace
