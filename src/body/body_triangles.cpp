@@ -5,6 +5,7 @@
 #include <map>
 
 #include "body/body_builder.h"
+#include "geometry/box_tree_ray.h"
 #include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
@@ -12,11 +13,11 @@ namespace {
 
 constexpr std::size_t kMaxTriangles = 500'000;
 
-/// Deviation of a cylinder's triangles: a hundredth of the required error of verdicts [m], or more for large cylinders,
-/// which would need more than a few thousand triangles.
-double cylinderDeviation(const Primitive& cylinder) {
-  constexpr double kFine = 2e-6, kOfSize = 1e-5;
-  return std::max(kFine, kOfSize * boundingBox(cylinder).sizes().maxCoeff());
+/// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
+/// which would need more than 3,500 sides.
+double cylinderDeviation(const Cylinder& cylinder) {
+  constexpr double kFine = 2e-6, kOfRadius = 4e-7;
+  return std::max(kFine, kOfRadius * cylinder.radius);
 }
 
 /// The extreme vertices along some directions; each once.
@@ -56,7 +57,11 @@ class Collector {
     for (const auto& [set, of_set] : points) components.push_back(farthestOut(of_set));
   }
 
+  /// Triangles added since the last call are another element.
+  void endElement() { elements.resize(triangles.size(), elements.empty() ? 0 : elements.back() + 1); }
+
   std::vector<RoundedTriangle> triangles;
+  std::vector<int> elements;  // per triangle
   std::vector<std::vector<Vector3d>> components;
 };
 
@@ -81,19 +86,24 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (const auto* ball = std::get_if<Sphere>(primitive)) {
         all.add(*ball, geometry.X_BG);
-        continue;
+      } else {
+        const auto* cylinder = std::get_if<Cylinder>(primitive);
+        const double fine = cylinder ? cylinderDeviation(*cylinder) : 1.0;
+        if (cylinder) deviation = std::max(deviation, fine);
+        all.add(tessellate(*primitive, fine), geometry.X_BG);
       }
-      const bool flat = std::holds_alternative<Box>(*primitive);
-      const double fine = flat ? 1.0 : cylinderDeviation(*primitive);
-      if (!flat) deviation = std::max(deviation, fine);
-      all.add(tessellate(*primitive, fine), geometry.X_BG);
-      continue;
+    } else {
+      all.add(pool.find(geometry).mesh, geometry.X_BG);
     }
-    all.add(pool.find(geometry).mesh, geometry.X_BG);
+    all.endElement();
     if (all.triangles.size() > kMaxTriangles) return nullptr;
   }
   if (all.triangles.empty()) return nullptr;
-  auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles));
+  std::vector<int> order;
+  auto made = std::make_shared<BodyTriangles>(BoxTree(all.triangles, &order));
+  made->elements = all.elements.back() + 1;
+  if (made->elements > 1)
+    for (const int i : order) made->element.push_back(all.elements[static_cast<std::size_t>(i)]);
   made->deviation = deviation;
   const std::size_t open = all.triangles.size();
   for (const GeometryDescription& geometry : description.geometry) {
@@ -109,6 +119,15 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
 }
 
 }  // namespace
+
+bool BodyTriangles::isOutside(const Vector3d& p) const {
+  for (int k = 0; k < elements; ++k) {
+    const auto belongs = [this, k](int i) { return elements == 1 || element[static_cast<std::size_t>(i)] == k; };
+    const std::optional<int> winding = windingNumber(tree, p, belongs);
+    if (!winding || *winding != 0) return false;
+  }
+  return true;
+}
 
 bool mayHaveTriangles(const BodyDescription& description) {
   if (!whyNoShell(description).empty()) return false;

@@ -16,6 +16,8 @@ struct BodyTriangles {
 
   BoxTree tree;
   std::unique_ptr<const BoxTree> closed;  ///< with caps in all openings (see findOpenings()); null without any
+  std::vector<int> element;               ///< per triangle of `tree`; empty if there is only one element
+  int elements = 1;                       ///< their number
   double deviation = 0.0;                 ///< of the triangles from the surface, of cylinders [m]
 
   /// For each component of the surface, with caps (connected by shared vertices): its extreme vertices in some
@@ -27,6 +29,10 @@ struct BodyTriangles {
   std::vector<std::shared_ptr<const Solid>> solids;
 
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
+
+  /// Whether a point off the surface is certainly outside all elements. The meshes must be closed, and their signs
+  /// trusted (MeshQuality::sign_trusted).
+  bool isOutside(const Vector3d& p) const;
 };
 
 /// Whether trianglesOf() gives any: not if the body has half-spaces or voxels, or more than half a million triangles.

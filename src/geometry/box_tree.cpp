@@ -84,6 +84,9 @@ class BoxTree::Builder {
         tree_.ball_.radius = std::max(tree_.ball_.radius, (p - tree_.origin_).norm() + t.radius);
   }
 
+  /// After build(): the index that each triangle had before.
+  const std::vector<int>& order() const { return order_; }
+
  private:
   struct Range {
     int begin, end;
@@ -257,9 +260,11 @@ class BoxTree::Builder {
   int least_ = 1;  ///< ranges of at most this many triangles are not split
 };
 
-BoxTree::BoxTree(std::vector<RoundedTriangle> triangles) : triangles_(std::move(triangles)) {
+BoxTree::BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order) : triangles_(std::move(triangles)) {
   if (triangles_.empty()) throw std::invalid_argument("box tree: no triangles");
-  Builder(*this).build();
+  Builder builder(*this);
+  builder.build();
+  if (order) *order = builder.order();
 }
 
 }  // namespace sdf_ccd

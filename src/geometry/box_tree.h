@@ -45,7 +45,8 @@ class BoxTree {
   };
 
   /// @param triangles  one or more, finite.
-  explicit BoxTree(std::vector<RoundedTriangle> triangles);
+  /// @param order      if given, set to the index in `triangles` of each of the tree's triangles.
+  explicit BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order = nullptr);
 
   const RoundedTriangle& triangle(int i) const { return triangles_[i]; }
   std::size_t size() const { return triangles_.size(); }

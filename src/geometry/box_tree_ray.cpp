@@ -24,14 +24,25 @@ class Ray {
         slack_(2.0 * kRayCracks * tree.ball().radius),
         box_slack_(slack_ + kBoxRounding * (tree.ball().radius + from_origin_.norm())) {}
 
-  bool meetsAny(std::int32_t node_index) const {
+  /// Adds the crossings of the triangles below a node. @return false if the ray passes an edge too closely.
+  template <class Filter>
+  bool count(std::int32_t node_index, const Filter& belongs, int& winding) const {
     const BoxTree::Node& node = tree_.node(node_index);
     for (std::int32_t i = 0; i < node.count; ++i) {
       if (!meetsBox(node, i)) continue;
       const std::int32_t below = node.below[i];
-      if (BoxTree::isTriangle(below) ? meets(tree_.triangle(BoxTree::triangleOf(below))) : meetsAny(below)) return true;
+      if (!BoxTree::isTriangle(below)) {
+        if (!count(below, belongs, winding)) return false;
+        continue;
+      }
+      const int index = BoxTree::triangleOf(below);
+      const RoundedTriangle& triangle = tree_.triangle(index);
+      if (triangle.radius > 0.0 || !belongs(index)) continue;
+      const std::optional<int> crossing = cross(triangle.corners);
+      if (!crossing) return false;
+      winding += *crossing;
     }
-    return false;
+    return true;
   }
 
  private:
@@ -54,31 +65,36 @@ class Ray {
     return enter <= exit * (1.0 + 1e-12);
   }
 
-  /// A rounded triangle is convex and does not contain p, so the ray's line meets it either before p or after it: where
-  /// the line is nearest to the triangle tells which.
-  bool meets(const RoundedTriangle& triangle) const {
+  /// 1 where the ray leaves through the triangle's front, -1 where it enters, 0 if it does not meet it; nothing if that
+  /// is not certain.
+  std::optional<int> cross(const Corners& corners) const {
     std::array<Vector2d, 3> across;  // seen along the ray, which is at the origin
-    std::array<double, 3> along;
+    bool is_behind = true;
     for (int k = 0; k < 3; ++k) {
-      const Vector3d to = triangle.corners[k] - p_;
+      const Vector3d to = corners[k] - p_;
       across[k] = {u_.dot(to), v_.dot(to)};
-      along[k] = along_.dot(to);
+      is_behind &= along_.dot(to) < -slack_;
     }
-    const double reach = triangle.radius + slack_;
-    std::array<double, 3> areas;  // of the triangles between the ray and each side, twice
+    if (is_behind) return 0;
+    int left = 0, right = 0;  // sides that have the ray on that side
     for (int k = 0; k < 3; ++k) {
       const Vector2d &a = across[k], &b = across[(k + 1) % 3], side = b - a;
-      areas[k] = a.x() * b.y() - a.y() * b.x();
       const double length2 = side.squaredNorm();
       const double share = length2 > 0.0 ? std::clamp(-a.dot(side) / length2, 0.0, 1.0) : 0.0;
-      if ((a + share * side).norm() > reach) continue;
-      if (along[k] + share * (along[(k + 1) % 3] - along[k]) > -slack_) return true;
+      if ((a + share * side).squaredNorm() <= slack_ * slack_) return std::nullopt;
+      // The line of a side is at least as far from a point inside as the triangle's border is.
+      const double area = a.x() * b.y() - a.y() * b.x(), sure = 0.5 * slack_ * std::sqrt(length2);
+      left += area > sure;
+      right += area < -sure;
     }
-    const double area = areas[0] + areas[1] + areas[2];
-    const bool is_inside =
-        (areas[0] > 0.0 && areas[1] > 0.0 && areas[2] > 0.0) || (areas[0] < 0.0 && areas[1] < 0.0 && areas[2] < 0.0);
-    if (!is_inside) return false;
-    return (areas[1] * along[0] + areas[2] * along[1] + areas[0] * along[2]) / area > -slack_;
+    if (left < 3 && right < 3) return 0;
+    // No side is near, so the triangle is no sliver, and its normal is accurate.
+    constexpr double kRounding = 1e-9;
+    const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const double height = normal.dot(p_ - corners[0]);
+    if (std::abs(height) <= kRounding * tree_.ball().radius) return std::nullopt;
+    if ((height > 0.0) == (left == 3)) return 0;  // behind p
+    return left == 3 ? 1 : -1;
   }
 
   const BoxTree& tree_;
@@ -88,10 +104,12 @@ class Ray {
 
 }  // namespace
 
-bool seesOutside(const BoxTree& tree, const Vector3d& p) {
-  for (int i = 0; i < kRayDirections; ++i)
-    if (!Ray(tree, p, rayDirection(i)).meetsAny(tree.root().node)) return true;
-  return false;
+std::optional<int> windingNumber(const BoxTree& tree, const Vector3d& p, const std::function<bool(int)>& belongs) {
+  for (int i = 0; i < kRayDirections; ++i) {
+    int winding = 0;
+    if (Ray(tree, p, rayDirection(i)).count(tree.root().node, belongs, winding)) return winding;
+  }
+  return std::nullopt;
 }
 
 }  // namespace sdf_ccd

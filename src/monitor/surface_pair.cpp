@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/box_tree_ray.h"
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
 
@@ -22,18 +21,11 @@ bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
   return false;
 }
 
-/// Whether a point is certainly outside the body's solid, frame B.
+/// Whether a point off the body's surface is certainly outside its solid, frame B. Fields are not asked: in a narrow
+/// recess or cavity their errors exceed the gap.
 bool isOutsideSolid(const Body& body, const Vector3d& p) {
   if (isOutsideBox(body.triangles->closedTree(), p)) return true;
-  if (body.doubtful) return body.doubtful->seesOutside(p);
-  bool fields_tell = !body.parts.empty();
-  for (const BodyPart& part : body.parts) {
-    const DistanceBounds bounds = part.field.bounds(part.X_BG.inverse() * p);
-    if (bounds.high < 0.0) return false;
-    fields_tell &= bounds.low > 0.0;
-  }
-  // In a narrow recess the fields' errors exceed the gap.
-  return fields_tell || seesOutside(body.triangles->closedTree(), p);
+  return body.doubtful ? body.doubtful->seesOutside(p) : body.triangles->isOutside(p);
 }
 
 /// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.

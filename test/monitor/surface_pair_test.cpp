@@ -51,6 +51,57 @@ TEST(SurfacePair, TellsATenthOfAMillimetre) {
   }
 }
 
+/// A ball and a cube in the cavity of a closed mesh, which no ray leaves: whatever the fields' accuracy, the triangles
+/// alone tell that neither is in the wall.
+TEST(SurfacePair, InAClosedCavityItIsClear) {
+  constexpr double kCavity = 0.11, kHalf = 0.1;
+  const TriangleMesh hollow = merged(boxMesh({0.2, 0.2, 0.2}), [&] {
+    TriangleMesh cavity = boxMesh({kCavity, kCavity, kCavity});
+    for (Vector3i& t : cavity.triangles) std::swap(t[0], t[1]);
+    return cavity;
+  }());
+  BodyDescription housing = body("housing", meshShape(hollow));
+  housing.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.05}}), translation({0, 0, 0.4}), "lid", false});
+  for (const double cell : {16.0, 64.0}) {
+    BodyOptions options = coarse();
+    options.field.cells = static_cast<int>(cell);
+    for (const auto& [name, shape] : {std::pair("ball", Shape(Primitive(Sphere{kHalf}))),
+                                      std::pair("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}) {
+      const auto scene = build({housing, body("thing", shape)}, options);
+      Monitor monitor(scene, soft());
+      for (const double gap : {0.01, 1e-3, 2e-4}) {
+        const PairResult pair = at(monitor, translation({kCavity - kHalf - gap, 0, 0}));
+        EXPECT_EQ(pair.verdict, Verdict::kClear) << name << ' ' << gap;
+        EXPECT_LE(pair.clearance, gap);
+        EXPECT_LT(pair.error.total(), 1e-5);
+      }
+      EXPECT_EQ(at(monitor, translation({kCavity - kHalf + 2e-4, 0, 0})).verdict, Verdict::kContact) << name;
+    }
+    // In the wall, where no surfaces cross.
+    const auto scene = build({housing, body("bead", Primitive(Sphere{0.01}))}, options);
+    Monitor monitor(scene, soft());
+    EXPECT_EQ(at(monitor, translation({0.155, 0, 0})).verdict, Verdict::kContact);
+    EXPECT_EQ(at(monitor, translation({0, 0, 0.4})).verdict, Verdict::kContact);
+    EXPECT_EQ(at(monitor, translation({0.09, 0.09, 0.09})).verdict, Verdict::kClear);
+  }
+}
+
+/// Also a tank of 50 m, whose sides are chords.
+TEST(SurfacePair, LargeCylindersKeepMaxError) {
+  for (const double radius : {0.5, 5.0, 25.0}) {
+    const auto scene =
+        build({body("tank", Primitive(Cylinder{radius, 1.0})), body("ball", Primitive(Sphere{0.1}))}, coarse());
+    Monitor monitor(scene, soft());
+    for (const double angle : {0.0, 0.001, 1.234}) {
+      const auto beside = [&](double gap) {
+        return translation((radius + 0.1 + gap) * Vector3d(std::cos(angle), std::sin(angle), 0.0));
+      };
+      EXPECT_EQ(at(monitor, beside(1.2e-4)).verdict, Verdict::kClear) << radius;
+      EXPECT_EQ(at(monitor, beside(-1.2e-4)).verdict, Verdict::kContact) << radius;
+    }
+  }
+}
+
 /// Edges that cross between the points of both shells: no point is inside, and the depth is known only up to the error.
 TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
   constexpr double kHalf = 0.01, kOverlap = 1e-3;
