@@ -99,7 +99,8 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
 void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const {
   DeepestSearch& search = memory.search;
   search.restart(resolution_);
-  std::vector<std::pair<const Direction*, TwoBodyMotion>> motions;
+  std::vector<StepMotion>& motions = memory.motions;
+  motions.clear();
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     const Direction& direction = directions_[i];
     RelativeMotion relative(scene_, direction.f, direction.p);
@@ -107,19 +108,19 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
     for (std::size_t step = 0; step < relative.steps(); ++step) {
       const TwoBodyMotion motion = relative.motion(step);
       search.add(direction.surface, direction.solid, motion, relative.bounds(step).travel);
-      motions.emplace_back(&direction, motion);
+      motions.push_back({direction.f, motion});
     }
   }
   search.run(kMaxPieces);
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();
-    const auto& [direction, motion] = motions[found.motion];
+    const auto& [f, motion] = motions[found.motion];
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = timeAt(motion, found.s);
     point.p_W = X_WF * found.p_F;
     // Outward from the solid: this is from A to B if the solid is A.
-    point.normal_W = (direction->f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
+    point.normal_W = (f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
   }
   point.depth = search.deepest().depth;
   point.depth_error = search.error() + error;

@@ -11,9 +11,16 @@ namespace sdf_ccd {
 /// Measures a contact on the triangles of both bodies, starting from what fields and shells found.
 class ContactRefinement {
  public:
+  /// A motion over one step, of a surface relative to the solid of body f.
+  struct StepMotion {
+    int f;
+    TwoBodyMotion motion;
+  };
+
   /// Scratch memory of run().
   struct Memory {
     DeepestSearch search;
+    std::vector<StepMotion> motions;                          // those of the search
     std::array<std::vector<RelativeMotionBounds>, 2> bounds;  // per direction
     SeparationMemory separation;
   };
