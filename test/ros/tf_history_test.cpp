@@ -328,16 +328,59 @@ TEST(TfHistory, AnEndlessChainIsNoChain) {
 
 TEST(TfHistory, ALoopIsNamedAndForgottenWithAllThatMoves) {
   TfHistory history("world");
+  const auto send = [&](double time) {
+    history.add(message({stampedTransform("world", "rail", time, 0.0), stampedTransform("rail", "arm", time, 1.0),
+                         stampedTransform("arm", "hand", time, 1.0)}),
+                false);
+  };
   history.add(message({stampedTransform("hand", "finger", 0.0, 0.5)}), true);
-  history.add(message({stampedTransform("world", "arm", 1.0, 1.0), stampedTransform("arm", "hand", 1.0, 1.0)}), false);
+  send(1.0);
   EXPECT_NEAR(xOf(history, "finger", 1.0), 2.5, 1e-12);
-  history.add(message({stampedTransform("hand", "world", 1.0, 0.0)}), false);
-  EXPECT_EQ(problemOf(history, "finger", 1.0), "the transforms above finger are a loop: hand in arm in world in hand");
+  history.add(message({stampedTransform("hand", "rail", 1.0, 0.0)}), false);
+  EXPECT_EQ(problemOf(history, "finger", 1.0), "the transforms above finger are a loop: hand in arm in rail in hand");
   history.forgetMoving();
   EXPECT_FALSE(history.takeJump());
   EXPECT_NE(problemOf(history, "hand", 1.0), "");
-  history.add(message({stampedTransform("world", "arm", 1.1, 1.0), stampedTransform("arm", "hand", 1.1, 1.0)}), false);
+  send(1.1);
   EXPECT_NEAR(xOf(history, "finger", 1.1), 2.5, 1e-12);
+}
+
+/// Whoever says that the fixed frame hangs on a link, once or for ever: the links below it are where they were.
+TEST(TfHistory, WhatIsAboveTheFixedFrameIsOfNoConcernBelowIt) {
+  for (const bool is_static : {false, true}) {
+    TfHistory history("world");
+    history.add(message({stampedTransform("world", "arm", 1.0, 1.0), stampedTransform("arm", "hand", 1.0, 1.0)}),
+                false);
+    history.add(message({stampedTransform("hand", "world", 1.0, 7.0)}), is_static);
+    EXPECT_NEAR(xOf(history, "arm", 1.0), 1.0, 1e-12);
+    EXPECT_NEAR(xOf(history, "hand", 1.0), 2.0, 1e-12);
+  }
+  TfHistory history("f0");
+  history.add(message({stampedTransform("f0", "arm", 1.0, 1.0)}), false);
+  for (int i = 0; i < 1000; ++i)
+    history.add(message({stampedTransform("f" + std::to_string(i + 1), "f" + std::to_string(i), 1.0, 0.0)}), false);
+  EXPECT_NEAR(xOf(history, "arm", 1.0), 1.0, 1e-12);
+}
+
+/// A frame that nobody else sends stays in a loop until its sender has been silent for as long as transforms are kept.
+TEST(TfHistory, ALoopEndsWhenItsSenderIsSilent) {
+  TfHistoryOptions options;
+  options.wanted = {"hand", "table"};
+  options.keep = 2.0;
+  TfHistory history("odom", options);
+  const auto send = [&](double time) {
+    history.watchClock(ros::Time(time));
+    history.add(message({stampedTransform("map", "odom", time, 5.0), stampedTransform("odom", "hand", time, 1.0)}),
+                false);
+  };
+  history.add(message({stampedTransform("map", "table", 0.0, 6.0)}), true);
+  send(1.0);
+  EXPECT_NEAR(xOf(history, "table", 1.0), 1.0, 1e-12);
+  history.add(message({stampedTransform("room", "map", 1.0, 0.0), stampedTransform("map", "room", 1.0, 0.0)}), false);
+  EXPECT_NE(problemOf(history, "table", 1.0).find("a loop"), std::string::npos);
+  EXPECT_NEAR(xOf(history, "hand", 1.0), 1.0, 1e-12);
+  for (double time = 1.1; time < 6.0; time += 0.1) send(time);
+  EXPECT_NEAR(xOf(history, "table", 5.5), 1.0, 1e-12);
 }
 
 TEST(TfHistory, RecordsAreBoundedHoweverFastTheyCome) {

@@ -64,6 +64,13 @@ void TfChains::findChain(const TfTree& tree, int fixed_frame, const std::string&
   up_.clear();
   down_ = above_;
   if (number != TfTree::kNone) tree.upwards(number, up_);
+  // As in tf2, what is above the fixed frame is of no concern to frames below it, also if it is a loop.
+  const auto isBelowFixed = [&](int edge) { return tree.parent(edge) == fixed_frame; };
+  const auto last = std::find_if(up_.begin(), up_.end(), isBelowFixed);
+  if (number == fixed_frame || last != up_.end()) {
+    up_.erase(number == fixed_frame ? up_.begin() : last + 1, up_.end());
+    down_.clear();
+  }
   if (up_.size() > kMaxAbove || down_.size() > kMaxAbove) {
     chain.problem = up_.size() > kMaxAbove ? endlessText(tree, frame, up_) : endlessText(tree, fixed_name, down_);
     return;

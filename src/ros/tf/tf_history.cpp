@@ -170,17 +170,25 @@ void TfHistory::setParent(int frame, int parent, bool is_static) {
   static_missed_ |= tree_.root(parent, above) != fixed_;
 }
 
-/// Makes room for other frames; a moving frame becomes known again with its next transform.
+/// Makes room for other frames, and breaks loops whose sender has gone; a moving frame becomes known again with its
+/// next transform.
 void TfHistory::forgetSilentFrames() {
   swept_ = clock_;
   const ros::Time silent_since = before(clock_, keep_);
   // Static frames do not fall silent, but those that a body has once hung on may be more than there is room for.
   const bool has_room = tree_.unfollowed(true) <= kMaxUnfollowed[true];
   static_dropped_ |= !has_room;
+  std::vector<int> above;
   for (int frame = 0; frame < static_cast<int>(tree_.size()); ++frame) {
     const TfEdge& edge = tree_.edge(frame);
-    if (!edge.isKnown() || tree_.isFollowed(frame)) continue;
-    if (edge.is_static ? !has_room : edge.received < silent_since) tree_.forget(frame);
+    if (!edge.isKnown()) continue;
+    const bool is_silent = !edge.is_static && edge.received < silent_since;
+    if (!tree_.isFollowed(frame)) {
+      if (edge.is_static ? !has_room : is_silent) tree_.forget(frame);
+    } else if (is_silent) {
+      tree_.upwards(frame, above);
+      if (above.size() > kMaxAbove) tree_.forget(frame);
+    }
   }
 }
 
