@@ -64,6 +64,27 @@ TEST_F(ChangingSceneFilesTest, ReadsNoFilesButThoseBelowTheRoots) {
   EXPECT_EQ(refusal(good), "");
 }
 
+/// What is found under another spelling than the request's must be below the roots too.
+TEST_F(ChangingSceneFilesTest, NoSpellingLeadsOutOfTheRoots) {
+  const test::TemporaryDirectory elsewhere;
+  const std::filesystem::path secret = elsewhere / "secret.off";
+  test::writeText(secret, test::off(test::icosphere(0.1, 1)));
+  std::filesystem::create_symlink(secret, folder_ / "link.off");
+  const std::string out = "%2e%2e/" + elsewhere.string().substr(folder_.string().rfind('/') + 1) + "/secret.off";
+  std::string escaped = out;
+  escaped.replace(escaped.find("/"), 1, "%2f");
+  SceneChange bad = change(SceneChange::ADD);
+  for (const std::string& name : {out, escaped, std::string("LINK.off"), std::string("l%69nk.off")}) {
+    for (const char* scheme : {"", "file://"}) {
+      bad.mesh_resources = {scheme + (folder_ / name).string()};
+      EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos) << name << ": " << refusal(bad);
+    }
+  }
+  test::writeText(folder_ / "in side.off", test::off(test::icosphere(0.1, 1)));
+  bad.mesh_resources = {"file://" + (folder_ / "IN%20side.off").string()};
+  EXPECT_EQ(refusal(bad), "");
+}
+
 TEST_F(ChangingSceneFilesTest, ARootMayComeLater) {
   const std::filesystem::path later = folder_ / "later";
   const RequestFiles files({later.string()}, [](const std::string&) { return Resource(); });

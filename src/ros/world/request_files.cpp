@@ -46,7 +46,10 @@ std::string RequestFiles::path(const std::string& file) const {
 
 Resource RequestFiles::resource(const std::string& uri) const {
   const bool is_elsewhere = uri.find("://") != std::string::npos && !startsWith(uri, kFile);
-  return loader_(is_elsewhere ? uri : path(uri));
+  if (is_elsewhere) return loader_(uri);
+  Resource found = loader_(path(uri));
+  path(found.name);  // a name with escaped characters, or in other case, may have been found outside
+  return found;
 }
 
 }  // namespace sdf_ccd
