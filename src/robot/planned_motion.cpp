@@ -99,8 +99,8 @@ PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
 }
 
 PlannedMotion withMargin(PlannedMotion motion, double margin) {
-  if (!(margin >= 0.0) || !std::isfinite(margin))
-    refuse("a margin must be 0 or more and finite, not " + numberText(margin) + " m");
+  if (!(margin >= 0.0) || !(margin <= kLargestMargin))
+    refuse("a margin must be from 0 to " + numberText(kLargestMargin) + " m, not " + numberText(margin) + " m");
   if (margin == 0.0) return motion;
   motion.piece = [piece = std::move(motion.piece), margin](std::size_t first, std::size_t last, CycleMotion& result) {
     piece(first, last, result);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
 #include "joint_kind.h"
 #include "joint_motion.h"
 #include "motion/chain_derivatives.h"
@@ -48,8 +49,11 @@ template <class PoseOf>
 void requirePoses(const std::vector<RobotState>& states, const PoseOf& pose_of, const std::string& what) {
   std::vector<Isometry3d> poses;
   for (const RobotState& state : states) poses.push_back(pose_of(state));
-  for (const Isometry3d& pose : poses)
+  for (const Isometry3d& pose : poses) {
     if (!pose.matrix().allFinite()) refuse(what + ": a pose is not finite");
+    if (!(pose.translation().lpNorm<Eigen::Infinity>() <= kFarthestPose))
+      refuse(what + ": a pose is more than " + numberText(kFarthestPose) + " m from the origin");
+  }
   requireUnambiguousTurns(poses, what);
 }
 
@@ -156,6 +160,7 @@ std::vector<double> TrajectoryMotion::waypoints() const {
   const std::vector<double>& times = trajectory_.times;
   std::vector<double> waypoints = {times.front()};
   std::size_t added = 0;
+  double turned = 0.0;
   std::vector<FrameMove> moves;
   for (std::size_t i = 1; i < times.size(); ++i) {
     moveAlong(i, moves);
@@ -165,12 +170,13 @@ std::vector<double> TrajectoryMotion::waypoints() const {
       angles[link] = moves[link].angle + (link > 0 ? angles[robot_.parent(static_cast<int>(link))] : 0.0);
       angle = std::max(angle, angles[link]);
     }
+    turned += angle;
     const double pieces = std::max(1.0, std::ceil(angle / kAngle));
     if (!(pieces - 1.0 <= static_cast<double>(kMaxAddedWaypoints - added))) {
-      refuse(
-          fmt::format("the trajectory rotates a link by {:.3g} rad before point {}; at most {} rad in addition to {:g} "
-                      "rad per point can be checked",
-                      angle, i, kMaxAddedWaypoints, kAngle));
+      refuse(fmt::format(
+          "the trajectory rotates links by {:.4g} rad up to point {}, and by {:.3g} rad before it; at most {} "
+          "rad in addition to {:g} rad per point can be checked",
+          turned, i, angle, kMaxAddedWaypoints, kAngle));
     }
     const auto count = static_cast<std::size_t>(pieces);
     added += count - 1;

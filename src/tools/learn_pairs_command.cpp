@@ -87,7 +87,9 @@ LearnOptions learnOptions(const Arguments& arguments, const RobotModel& robot) {
   options.max_error = arguments.max_error;
   options.default_pairs = arguments.default_pairs;
 #ifdef SDF_CCD_WITH_ROS
-  if (!arguments.bag.empty()) options.recorded = recordedPositions(arguments.bag, robot, arguments.topic);
+  std::string warning;
+  if (!arguments.bag.empty()) options.recorded = recordedPositions(arguments.bag, robot, arguments.topic, warning);
+  if (!warning.empty()) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
 #else
   static_cast<void>(robot);
 #endif

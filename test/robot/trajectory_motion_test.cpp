@@ -251,6 +251,8 @@ TEST(TrajectoryMotion, RefusesWhatIsNoTrajectory) {
             "pose in between");
   trajectory.states[1].X_WR = Isometry3d(Eigen::AngleAxisd(kPi - 1e-5, Vector3d::UnitX()));
   EXPECT_EQ(refusal(trajectory), "");
+  trajectory.states[1].X_WR = Isometry3d(Eigen::Translation3d(0.0, 1.1e8, 0.0));
+  EXPECT_EQ(refusal(trajectory), "the robot's root: a pose is more than 1e+08 m from the origin");
 }
 
 TEST(TrajectoryMotion, TwoTrajectoriesMergeAtTheTimesOfBoth) {

@@ -278,8 +278,12 @@ TEST_F(CheckMotionsTest, AMarginIsKept) {
     within += verdicts[i].verdict == Verdict::kUncertain;
   }
   EXPECT_GT(within, 10);
-  request.margin = -1.0;
-  EXPECT_THROW(check(all, request), std::invalid_argument);
+  for (const double wrong : {-1.0, 1e10, 1e300, std::nan("")}) {  // the bound is a sum with the margin
+    request.margin = wrong;
+    EXPECT_THROW(check(all, request), std::invalid_argument) << wrong;
+  }
+  request.margin = kLargestMargin;
+  for (const MotionVerdict& verdict : check({all.front()}, request)) EXPECT_GT(verdict.error_bound, 0.0);
   request = {};
   request.tolerances.clear();
   EXPECT_THROW(check(all, request), std::invalid_argument);

@@ -363,6 +363,20 @@ TEST_F(CheckBag, PairsAreLearnedFromABag) {
   expectRefused(command + "--states 0 --bag missing.bag --out no.srdf", "missing.bag: cannot be opened");
   expectRefused(command + "--states 0 --bag arm.bag --joint-states /else --out no.srdf",
                 "arm.bag: contains no joint states of the robot's joints on /else");
+  sensor_msgs::JointState broken;
+  broken.name = {"yaw", "shoulder", "unknown"};
+  broken.position = {0.3, std::nan(""), std::nan("")};
+  const auto write = [&](const char* bag, rosbag::bagmode::BagMode mode) {
+    rosbag::Bag(path(bag).string(), mode).write("joint_states", ros::Time(1.0), broken);
+  };
+  write("broken.bag", rosbag::bagmode::Write);
+  expectRefused(command + "--states 0 --bag broken.bag --out no.srdf",
+                "only 1 joint states with positions that are not finite");
+  write("arm.bag", rosbag::bagmode::Append);
+  const ToolRun warned = run(command + "--states 0 --bag arm.bag --out arm.srdf");
+  EXPECT_NE(warned.out.find(", 5 recorded, and the default"), std::string::npos) << warned.out;
+  EXPECT_NE(warned.error.find("1 joint states with positions that are not finite are left out"), std::string::npos)
+      << warned.error;
 }
 
 }  // namespace

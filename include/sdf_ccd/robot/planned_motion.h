@@ -132,9 +132,12 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
                           const std::vector<UnreachablePair>& unreachable);
 
+/// Beyond it, rounding of the sum of margin and error bound would count [m].
+constexpr double kLargestMargin = 1000.0;
+
 /// The same motion with a margin: only pairs that stay farther apart than it are CLEAR. It counts as motion error, also
 /// in the error bound. Pairs that come closer are UNCERTAIN, as are contacts less deep than the margin.
-/// @throws std::invalid_argument if the margin [m] is negative or not finite.
+/// @throws std::invalid_argument unless the margin [m] is between 0 and kLargestMargin.
 PlannedMotion withMargin(PlannedMotion motion, double margin);
 
 }  // namespace sdf_ccd

@@ -13,8 +13,10 @@
 
 namespace sdf_ccd {
 
-JointStates recordedPositions(const std::string& file, const RobotModel& robot, const std::string& topic) {
+JointStates recordedPositions(const std::string& file, const RobotModel& robot, const std::string& topic,
+                              std::string& warning) {
   JointStates states;
+  std::size_t not_finite = 0;
   readBag(file, [&] {
     rosbag::Bag bag(file);
     std::map<std::string, std::size_t> indices;  // in states.joints
@@ -23,9 +25,13 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
       if (!topic.empty() && withoutLeadingSlash(message.getTopic()) != withoutLeadingSlash(topic)) continue;
       const auto joints = message.instantiate<sensor_msgs::JointState>();
       if (!joints) continue;
-      bool has_changed = false;
-      for (std::size_t i = 0; i < std::min(joints->name.size(), joints->position.size()); ++i) {
-        if (robot.urdf().joints_.count(joints->name[i]) == 0 || !std::isfinite(joints->position[i])) continue;
+      const std::size_t count = std::min(joints->name.size(), joints->position.size());
+      const auto isRobots = [&](std::size_t i) { return robot.urdf().joints_.count(joints->name[i]) != 0; };
+      bool has_changed = false, is_finite = true;
+      for (std::size_t i = 0; i < count; ++i) is_finite &= std::isfinite(joints->position[i]) || !isRobots(i);
+      not_finite += !is_finite;
+      for (std::size_t i = 0; is_finite && i < count; ++i) {
+        if (!isRobots(i)) continue;
         const auto [index, is_new] = indices.try_emplace(joints->name[i], positions.size());
         if (is_new) {
           states.joints.push_back(joints->name[i]);
@@ -38,10 +44,12 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
       if (has_changed) states.positions.push_back(positions);
     }
   });
+  const std::string left_out = std::to_string(not_finite) + " joint states with positions that are not finite";
   if (states.size() == 0) {
     throw std::runtime_error(file + ": contains no joint states of the robot's joints" +
-                             (topic.empty() ? "" : " on " + topic));
+                             (topic.empty() ? "" : " on " + topic) + (not_finite > 0 ? ", only " + left_out : ""));
   }
+  if (not_finite > 0) warning = file + ": " + left_out + " are left out";
   return states;
 }
 
