@@ -13,7 +13,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 struct UniformRecord {
   GridRecord grid;

@@ -11,7 +11,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 static_assert(sizeof(Vector3d) == 3 * sizeof(double) && sizeof(Vector3f) == 3 * sizeof(float), "written as numbers");
 

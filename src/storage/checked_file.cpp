@@ -60,7 +60,8 @@ std::size_t aligned(std::size_t offset) {
   throw std::runtime_error(path + ": " + what);
 }
 
-/// XXH3 (64 bits) of the XXH3 of each piece, so that pieces can be read at the same time.
+/// XXH64 of the XXH64 of each piece, so that pieces can be read at the same time. Before version 0.8, which
+/// Ubuntu 20.04 does not have, the faster XXH3 was not final.
 class Checksum {
  public:
   /// @param piece  called with (from, bytes) for each piece; returns its data.
@@ -69,17 +70,17 @@ class Checksum {
     std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
     tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
       const std::size_t from = i * kPiece, count = std::min(kPiece, bytes - from);
-      pieces[i] = XXH3_64bits(piece(from, count), count);
+      pieces[i] = XXH64(piece(from, count), count, 0);
     });
     return of(pieces);
   }
 
-  Checksum() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+  Checksum() : state_(XXH64_createState(), &XXH64_freeState) { XXH64_reset(state_.get(), 0); }
 
   void add(const void* data, std::size_t bytes) {
     for (const char* from = static_cast<const char*>(data); bytes > 0;) {
       const std::size_t part = std::min(bytes, kPiece - in_piece_);
-      XXH3_64bits_update(state_.get(), from, part);
+      XXH64_update(state_.get(), from, part);
       from += part;
       bytes -= part;
       in_piece_ += part;
@@ -95,15 +96,15 @@ class Checksum {
   static constexpr std::size_t kPiece = std::size_t{1} << 20;
 
   static std::uint64_t of(const std::vector<std::uint64_t>& pieces) {
-    return XXH3_64bits(pieces.data(), pieces.size() * sizeof(std::uint64_t));
+    return XXH64(pieces.data(), pieces.size() * sizeof(std::uint64_t), 0);
   }
   void endPiece() {
-    pieces_.push_back(XXH3_64bits_digest(state_.get()));
-    XXH3_64bits_reset(state_.get());
+    pieces_.push_back(XXH64_digest(state_.get()));
+    XXH64_reset(state_.get(), 0);
     in_piece_ = 0;
   }
 
-  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+  std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state_;
   std::vector<std::uint64_t> pieces_;
   std::size_t in_piece_ = 0;
 };

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::expectSame;
 
-constexpr std::uint32_t kVersion = 8;  // of a uniform field's file
+constexpr std::uint32_t kVersion = 9;  // of a uniform field's file
 
 class FieldFile : public test::FieldFileCase {
  protected:

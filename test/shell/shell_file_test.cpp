@@ -16,7 +16,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 
 class ShellFile : public ::testing::Test {
  protected:

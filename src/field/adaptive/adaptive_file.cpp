@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 8;
+constexpr std::uint32_t kVersion = 9;
 
 static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64,
               "the file's layout must not depend on the compiler");
