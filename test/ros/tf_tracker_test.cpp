@@ -271,6 +271,63 @@ TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   send(stampedTransform("world", "hand", 10.7, 0.0));
   ASSERT_EQ(next(10.7), Step::kCycle);
   EXPECT_EQ(cycle_.motion.missing[1], "no transform from foot to world: no transform of foot was received");
+  EXPECT_NEAR(spanStart(1), 10.0, 1e-9);  // what the other pair did while it waited is not lost
+  EXPECT_NEAR(spanEnd(1), 10.7, 1e-9);
+}
+
+TEST_F(TfTrackerTest, WhatWasKnownBeforeTheLastFrameCameIsChecked) {
+  for (int i = 0; i < 8; ++i) {
+    send(stampedTransform("world", "hand", 10.0 + 0.05 * i, 0.01 * i));
+    EXPECT_EQ(next(10.0 + 0.05 * i), Step::kWaiting);
+  }
+  send(stampedTransform("world", "hand", 10.4, 0.1));
+  send(stampedTransform("world", "foot", 10.4, 0.0));
+  EXPECT_EQ(next(10.4), Step::kWaiting);  // the first cycle begins here
+  send(stampedTransform("world", "hand", 10.45, 0.1));
+  send(stampedTransform("world", "foot", 10.45, 0.0));
+  ASSERT_EQ(next(10.45), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(10.4));
+  EXPECT_EQ(cycle_.origin, ros::Time(10.0));
+  EXPECT_NEAR(spanStart(0), 10.4, 1e-9);
+  EXPECT_NEAR(spanStart(1), 10.0, 1e-9);
+  EXPECT_NEAR(spanStart(2), 10.4, 1e-9);
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanEnd(pair), 10.45, 1e-9);
+  for (const std::string& why : cycle_.motion.missing) EXPECT_EQ(why, "");
+}
+
+/// A transform that is stamped far back may only be late; the second one tells, and both count.
+TEST_F(TfTrackerTest, AfterAJumpNothingIsLostOfTheNewTime) {
+  const auto both = [&](double time) {
+    send(stampedTransform("world", "hand", time, 0.0));
+    send(stampedTransform("world", "foot", time, 0.0));
+  };
+  for (const double time : {10.0, 10.1, 10.2}) {
+    both(time);
+    next(time);
+  }
+  both(5.0);
+  EXPECT_EQ(next(10.3), Step::kWaiting);
+  both(5.1);
+  EXPECT_EQ(next(10.4), Step::kJump);
+  both(5.2);
+  next(10.5);
+  both(5.3);
+  ASSERT_EQ(next(10.6), Step::kCycle);
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanStart(pair), 5.0, 1e-9) << pair;
+  EXPECT_NEAR(spanEnd(0), 5.3, 1e-9);
+}
+
+/// A robot that has long been running is joined at the present.
+TEST_F(TfTrackerTest, BeginsAtThePresentIfTransformsHaveLongBeenKnown) {
+  for (int i = 0; i <= 40; ++i) {
+    send(stampedTransform("world", "hand", 10.0 + 0.05 * i, 0.0));
+    send(stampedTransform("world", "foot", 10.0 + 0.05 * i, 0.0));
+  }
+  EXPECT_EQ(next(12.0), Step::kWaiting);
+  send(stampedTransform("world", "hand", 12.1, 0.0));
+  send(stampedTransform("world", "foot", 12.1, 0.0));
+  ASSERT_EQ(next(12.1), Step::kCycle);
+  EXPECT_EQ(cycle_.origin, ros::Time(12.0));
 }
 
 TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyLate) {

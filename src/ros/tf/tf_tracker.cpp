@@ -84,6 +84,7 @@ TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies,
 
 void TfTracker::reset() {
   last_end_ = ros::Time();
+  first_ = ros::Time();
   waits_since_ = ros::Time();
   versions_.assign(bodies_.size(), 0);
   changed_.assign(bodies_.size(), ros::Time());
@@ -105,8 +106,10 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   // The clock has gone back, or all frames have started over far in the past; or the clock was set far ahead.
   if (history_.takeJump() || -ahead > kJumpBack || ahead > kJumpAhead) {
     reset();
+    noteFirst();
     return Step::kJump;
   }
+  if (is_first) noteFirst();
   if (waits_since_.isZero()) waits_since_ = now;
   const bool waited_enough = secondsBetween(waits_since_, now) > options_.max_latency;
   if (is_first ? !begin(waited_enough, missing) : end <= last_end_)
@@ -211,6 +214,15 @@ bool TfTracker::mayRewind(double age) {
   return true;
 }
 
+/// Notes the time since when the first moving frame is known: that of its last transform if it had been known for
+/// longer than frames are waited for, as when the monitor joins a robot that runs.
+void TfTracker::noteFirst() {
+  const auto earliest = std::min_element(ends_.begin(), ends_.end());
+  if (!first_.isZero() || earliest == ends_.end() || *earliest == ros::TIME_MAX) return;
+  const ros::Time known = spans_[static_cast<std::size_t>(earliest - ends_.begin())].first;
+  first_ = secondsBetween(known, *earliest) <= options_.max_latency ? known : *earliest;
+}
+
 /// Begins the first cycle where all bodies are known or, after some time, all but those that are missing.
 bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missing) {
   const auto earliest = std::min_element(ends_.begin(), ends_.end());
@@ -219,8 +231,13 @@ bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missin
     if (!missing[body].empty() || spans_[body].first > start) return false;  // its transforms may still arrive
   }
   if (start.isZero()) return false;
-  begin_ = last_end_ = start;
-  times_.assign(pairs_.size(), {start, start});
+  last_end_ = start;
+  begin_ = first_.isZero() ? start : std::min(first_, start);
+  times_.clear();
+  for (const PlannedPair& pair : pairs_) {
+    const ros::Time known = std::max({begin_, spans_[pair.body_a].first, spans_[pair.body_b].first});
+    times_.push_back({begin_, std::min(known, start)});
+  }
   are_together_ = false;
   return true;
 }
@@ -291,6 +308,7 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
 
 void TfTracker::continueFrom(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs) {
   begin_ = other.begin_;
+  first_ = other.first_;
   last_end_ = other.last_end_;
   waits_since_ = other.waits_since_;
   rewind_budget_ = other.rewind_budget_;

@@ -52,10 +52,11 @@ struct TrackedCycle {
 };
 
 /// Divides recorded transforms into cycles (design §5). Every pair is checked from where its last check ended to where
-/// both its frames are known; a cycle ends where the latest pair does. So a frame that lags behind delays only its
-/// own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked. The lag is
-/// measured against the newest transform of all frames or, unless time is simulated, against the wall clock. Poses are
-/// sampled at every recorded transform and interpolated between them as by tf2.
+/// both its frames are known; a cycle ends where the latest pair does. The first cycle waits until all frames are
+/// known, or max_latency is over, but includes what was known of each pair while it waited. So a frame that lags behind
+/// delays only its own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked.
+/// The lag is measured against the newest transform of all frames or, unless time is simulated, against the wall clock.
+/// Poses are sampled at every recorded transform and interpolated between them as by tf2.
 ///
 /// If a frame changes otherwise than by moving (from static to moving, to another parent), its pose in between is
 /// unknown: its bodies are missing for the cycle that sees the change. If transforms arrive after newer ones, the
@@ -104,6 +105,7 @@ class TfTracker {
   void findMoving();
   void rewindLatePairs();
   bool mayRewind(double age);
+  void noteFirst();
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time latestEnd(const std::vector<std::string>& missing) const;
   bool canAdvanceTogether(const TrackedCycle& cycle) const;
@@ -133,7 +135,8 @@ class TfTracker {
   MotionSampler sampler_;
   TfChains chains_;
   std::vector<char> is_paired_;  // per body
-  ros::Time begin_;              // of the first cycle
+  ros::Time begin_;              // of the first cycle's earliest pair
+  ros::Time first_;              // before the first cycle: since when pairs could be checked; 0 if none could yet
   ros::Time last_end_;           // of the last cycle; 0 before the first
   ros::Time waits_since_;        // on the ROS clock; 0 before the first step
   std::vector<TimePart> times_;  // per pair: its part of the cycle; the next one continues at `until`
