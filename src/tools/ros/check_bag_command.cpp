@@ -7,8 +7,10 @@
 #include <utility>
 
 #include <console_bridge/console.h>
+#include <fmt/format.h>
 
 #include "commands.h"
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "cycle_report.h"
@@ -19,6 +21,7 @@
 #include "progress_bar.h"
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
+#include "ros/bag/pair_coverage.h"
 #include "threads_option.h"
 
 namespace sdf_ccd::tools {
@@ -88,9 +91,7 @@ class Recorder : public BagObserver {
     const ContactArray contacts = toContactArray(loop_);
     bag_.addCycle(contacts, now);
     report_.add(contacts);
-    was_checked_.resize(loop_.scene().pairs.size(), false);  // behind these come pairs that ReachGuard has added
-    for (std::size_t p = 0; p < was_checked_.size(); ++p)
-      if (loop_.result().pairs[p].verdict != Verdict::kNotChecked) was_checked_[p] = true;
+    coverage_.add(loop_.cycle(), loop_.result(), loop_.scene().pairs.size());
   }
   void onUnchecked(const std::string& reason, const ros::Time& now) override { bag_.addUnchecked(reason, now); }
   void onGap(const TimePart& part, const std::string& reason, const ros::Time& now) override {
@@ -99,8 +100,7 @@ class Recorder : public BagObserver {
     report_.add(gap);
   }
 
-  /// Per pair of the scene: whether some cycle checked it. Empty if there was no cycle.
-  const std::vector<bool>& wasChecked() const { return was_checked_; }
+  const PairCoverage& coverage() const { return coverage_; }
 
  private:
   ProgressBar bar_{"cycles"};
@@ -110,12 +110,12 @@ class Recorder : public BagObserver {
   CheckedBag& bag_;
   const Interrupt& interrupt_;
   CycleReport& report_;
-  std::vector<bool> was_checked_;
+  PairCoverage coverage_;
 };
 
 struct Checked {
-  double seconds = 0.0;           ///< run time
-  std::vector<bool> was_checked;  ///< Recorder::wasChecked()
+  double seconds = 0.0;  ///< run time
+  PairCoverage coverage;
 };
 
 Checked check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
@@ -125,7 +125,7 @@ Checked check(const RecordedMotion& motion, const MonitorParameters& parameters,
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
-  return {secondsSince(start), recorder.wasChecked()};
+  return {secondsSince(start), recorder.coverage()};
 }
 
 void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
@@ -136,34 +136,31 @@ void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
           bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
 }
 
-/// Prints how many pairs no cycle checked; true if there are none.
-/// @param why  the most frequent reason.
-bool areAllChecked(const Scene& scene, const std::vector<bool>& was_checked, const std::string& why) {
-  const auto first = std::find(was_checked.begin(), was_checked.end(), false);
-  if (first == was_checked.end()) return true;
-  const PlannedPair& pair = scene.pairs[std::size_t(first - was_checked.begin())];
-  std::cerr << "sdf_ccd: " << std::count(first, was_checked.end(), false) << " pairs were never checked, for example "
-            << scene.bodies[pair.body_a].name << " - " << scene.bodies[pair.body_b].name
-            << (why.empty() ? "" : "; the most frequent reason: " + why) << std::endl;
-  return false;
+std::string pairName(const Scene& scene, std::size_t index) {
+  const PlannedPair& pair = scene.pairs[index];
+  return scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
 }
 
-/// Prints what was never checked to stderr.
+/// What was not checked, a sentence each; empty if everything was checked, up to the time that late frames may take.
 /// @param begin  start time of the bag.
-/// @return true if everything was checked at least once and without gaps.
-bool isComplete(const CycleStatistics& statistics, const Scene& scene, const std::vector<bool>& was_checked,
-                const ros::Time& begin) {
-  bool is_complete = statistics.hasCheckedCycle();
-  if (!is_complete) {
-    std::cerr << "sdf_ccd: no cycle was checked as a whole, as " << statistics.whyNotChecked() << std::endl;
+std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const Scene& scene,
+                                       const PairCoverage& coverage, const ros::Time& begin, double max_latency) {
+  std::vector<std::string> missing;
+  const std::string why = statistics.whyNotChecked();
+  if (!statistics.hasCheckedCycle()) missing.push_back("no cycle was checked as a whole, as " + why);
+  if (const std::size_t never = coverage.neverChecked(); never > 0) {
+    missing.push_back(fmt::format("{} were never checked, for example {}{}", counted(never, "pair"),
+                                  pairName(scene, coverage.firstNeverChecked()),
+                                  why.empty() ? "" : "; the most frequent reason: " + why));
   }
-  is_complete &= areAllMade(scene);
-  is_complete &= areAllChecked(scene, was_checked, statistics.whyNotChecked());
-  for (const std::string& gap : statistics.gaps(begin)) {
-    std::cerr << "sdf_ccd: nothing was checked " << gap << std::endl;
-    is_complete = false;
+  if (const PairCoverage::Partly partly = coverage.partlyChecked(max_latency); partly.pairs > 0) {
+    missing.push_back(
+        fmt::format("{} were not checked for a part of the time, {} for {:.2f} of {:.2f} s; the reasons "
+                    "are in cycles.csv",
+                    counted(partly.pairs, "pair"), pairName(scene, partly.worst), partly.unchecked, partly.of));
   }
-  return is_complete;
+  for (const std::string& gap : statistics.gaps(begin)) missing.push_back("nothing was checked " + gap);
+  return missing;
 }
 
 void run(const Arguments& arguments) {
@@ -200,7 +197,10 @@ void run(const Arguments& arguments) {
   const CycleStatistics& statistics = files.report.statistics();
   requireChecked(statistics, arguments.bag);
 
-  const bool is_complete = isComplete(statistics, *scene, checked.was_checked, motion.begin());
+  const std::vector<std::string> missing =
+      whatIsMissing(statistics, *scene, checked.coverage, motion.begin(), parameters.tf.max_latency);
+  for (const std::string& what : missing) std::cerr << "sdf_ccd: " << what << std::endl;
+  const bool is_complete = areAllMade(*scene) && missing.empty();
   const double length = (motion.end() - motion.begin()).toSec();
   std::ostringstream text;
   text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
@@ -241,8 +241,10 @@ void addCheckBagCommand(CLI::App& app) {
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
-      "code 1: some pairs were never checked, no cycle was checked as a whole, or a part of the bag was not, "
-      "as its transforms end before it or are refused; 2: nothing was checked. Without gnuplot there is no "
+      "code 1: some pairs were not checked at all, or not for more than max_latency in total, no cycle was checked as "
+      "a "
+      "whole, or a part of the bag was not, as its transforms end before it or are refused; 2: nothing was checked. "
+      "Without gnuplot there is no "
       "error_time.svg, which does not change the exit code.");
   command->add_option("bag", arguments->bag, "Bag to read")->required();
   command->add_option("--urdf", arguments->config.urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")
