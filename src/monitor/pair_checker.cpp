@@ -247,6 +247,20 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
+/// Sets a contact that no point of a shell feels. Where the surfaces cross at the span's start or end, it lasts from or
+/// up to there, so that it continues in the neighbouring cycles.
+void PairChecker::setLastingCrossing(const ContactPoint& crossing, PairResult& result) {
+  setCrossing(crossing, result);
+  ContactPoint& deepest = result.deepest;
+  deepest.depth_error = result.contact_error.total();
+  if (!surfaces_) return;
+  const RelativeMotion& motion = surfaces_->motion();
+  SeparationMemory& memory = memory_->separation;
+  if (surfaces_->crossAt(false, motion_error_, memory)) deepest.enter = motion.motion(0).t_start;
+  if (surfaces_->crossAt(true, motion_error_, memory)) deepest.exit = motion.motion(motion.steps() - 1).t_end;
+  result.intervals.front() = {deepest.enter, deepest.exit};
+}
+
 /// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.
 /// For fields call a pair CLEAR only if no point of a shell, whose surface is within the gap of its points, comes
 /// closer in the field than field + gap + chord + root: the surfaces then stay apart even if all of these errors reach
@@ -290,7 +304,7 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   collector.finish(request, result);
   // A crossing between shell points is not seen by fields, so it is no deeper than their error bound.
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
-  if (crossing && result.intervals.empty()) return setCrossing(*crossing, result);
+  if (crossing && result.intervals.empty()) return setLastingCrossing(*crossing, result);
   // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
   // than the motion's error.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;

@@ -133,21 +133,32 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) c
   return contact;
 }
 
-std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr int kMaxHalvings = 60;
-  const BoxTree &f = field_->triangles->tree, &p = shell_->triangles->tree;
+/// The separation during a part of a step, between two shares of it; at one time if they are equal.
+Separation SurfacePair::during(std::size_t step, double start, double end, double motion_error,
+                               SeparationMemory& memory) {
   SeparationOptions options;
   // Poses within a step differ from the step's own by rounding.
   options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
   options.resolution = resolution_;
+  const TwoBodyMotion whole = motion_.motion(step);
+  const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
+  const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
+  const double length = end - start;
+  const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
+  return separation(field_->triangles->tree, shell_->triangles->tree, part, options, witness_, memory);
+}
+
+bool SurfacePair::crossAt(bool end, double motion_error, SeparationMemory& memory) {
+  const std::size_t step = end ? motion_.steps() - 1 : 0;
+  const double share = end ? 1.0 : 0.0;
+  return during(step, share, share, motion_error, memory).state == SeparationState::kCrossing;
+}
+
+std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr int kMaxHalvings = 60;
   const auto over = [&](std::size_t step, double start, double end) {
-    const TwoBodyMotion whole = motion_.motion(step);
-    const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
-    const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
-    const double length = end - start;
-    const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
-    return separation(f, p, part, options, witness_, memory);
+    return during(step, start, end, motion_error, memory);
   };
   std::optional<Interval> touch;
   for (std::size_t step = 0; step < motion_.steps(); ++step) {

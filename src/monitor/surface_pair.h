@@ -57,6 +57,9 @@ class SurfacePair {
   /// @param motion_error  upper bound of the error of the bodies' relative position [m].
   Answer decide(double motion_error, SeparationMemory& memory);
 
+  /// Whether the surfaces certainly cross at the motion's start, or at its end.
+  bool crossAt(bool end, double motion_error, SeparationMemory& memory);
+
   /// The first touch of the surfaces [s]: they are apart before `enter` and certainly cross at `exit`, which is
   /// infinite if no crossing is certain. Unless they graze, they move by no more than the resolution between the two.
   /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
@@ -74,6 +77,7 @@ class SurfacePair {
  private:
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
+  Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step) const;
 
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one

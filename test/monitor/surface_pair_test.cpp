@@ -124,6 +124,42 @@ TEST(SurfacePair, CrossingBetweenPointsIsAsDeepAsItsErrorAllows) {
   EXPECT_GT(without_depth, 0);
 }
 
+/// Crossed edges that no shell point feels, and that part halfway through the third cycle: one contact from the first
+/// cycle's begin to then.
+TEST(SurfacePair, ACrossingLastsAsLongAsTheSurfacesCross) {
+  constexpr double kHalf = 0.01, kOverlap = 1e-3;
+  const Primitive rod = Box{{0.2, kHalf, kHalf}};
+  const auto scene = build({body("rod", rod), body("other", rod)}, coarse());
+  Monitor monitor(scene, soft());
+  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // one edge on top, one below
+  const auto at = [&](double overlap) {
+    return translation({-0.0407, 0.0123, 2.0 * std::sqrt(2.0) * kHalf - overlap}) *
+           pose({0, 0, 0}, kPi / 2, {0, 0, 1}) * turned;
+  };
+  const auto run = [&](double from, double to) {
+    return monitor.run(cycle(0.1, {still(turned), {at(from), at(to)}}), {}).pairs[0];
+  };
+  for (int i = 0; i < 2; ++i) {
+    const PairResult lasts = run(kOverlap, kOverlap);
+    ASSERT_EQ(lasts.verdict, Verdict::kContact);
+    ASSERT_EQ(lasts.deepest.depth, 0.0) << "a shell point feels it";
+    EXPECT_EQ(lasts.deepest.depth_error, lasts.contact_error.total());
+    ASSERT_EQ(lasts.intervals.size(), 1u);
+    EXPECT_EQ(lasts.intervals[0].enter, 0.0);
+    EXPECT_EQ(lasts.intervals[0].exit, 0.1);
+  }
+  const PairResult ends = run(kOverlap, -kOverlap);
+  ASSERT_EQ(ends.verdict, Verdict::kContact);
+  ASSERT_EQ(ends.intervals.size(), 1u);
+  EXPECT_EQ(ends.intervals[0].enter, 0.0);
+  EXPECT_LT(ends.intervals[0].exit, 0.051);
+  EXPECT_EQ(run(-kOverlap, -kOverlap).verdict, Verdict::kClear);
+  const PairResult begins = run(-kOverlap, kOverlap);
+  ASSERT_EQ(begins.intervals.size(), 1u);
+  EXPECT_GT(begins.intervals[0].enter, 0.049);
+  EXPECT_EQ(begins.intervals[0].exit, 0.1);
+}
+
 /// A cube tumbles over a slab and is nearest with its edge, halfway, at a known distance. The bound holds from both
 /// sides, for every max_error.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {

@@ -159,9 +159,12 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
   std::vector<std::string> items;
   for (const Contact& contact : contacts_.contacts()) {
     if (contact.verdict != Contact::CONTACT) continue;
+    // Of a contact that no point of a shell feels, no depth is known.
+    const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
+    const double depth = is_felt ? contact.deepest.depth : contact.contact_error_bound;
     items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
-                    shortly((contact.end - contact.begin).toSec()) + " s, " + shortly(1e3 * contact.deepest.depth) +
-                    " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
+                    shortly((contact.end - contact.begin).toSec()) + (is_felt ? " s, " : " s, at most ") +
+                    shortly(1e3 * depth) + " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
   const auto pairs = std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.second.in_contact > 0; });
   return list("contact          " + counted(std::size_t(pairs), "pair") + ", " + counted(items.size(), "time"), items);
