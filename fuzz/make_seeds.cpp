@@ -144,7 +144,7 @@ class Seeds {
     add("moveit_scene", "before",
         "(noname)+\n* b\n2\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n1 0 0 1\ncone\n1 2\n0 0 0\n0 0 0 1\n1 0 0 1\n.\n");
     add("segments", "header", "ox,oy,oz,ex,ey,ez\n0,0,0,1,1,1\n-1e-3, 2.5,0,1,.5,0x1p3\r\n\n");
-    for (const char* target : {"query_motion", "query_points", "transforms", "update_scene"}) {
+    for (const char* target : {"query_motion", "query_motions", "query_points", "transforms", "update_scene"}) {
       for (int k = 1; k < 32; ++k) {
         std::string numbers;
         for (int i = 0; i < 96; ++i) numbers += static_cast<char>(i % 3 == 0 ? k : 17 * i * k % 251);

@@ -111,12 +111,21 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
       << "nothing is set aside for it";
   EXPECT_NE(error("0 0 0.7071068 0.7071068", "0 0 0 0").find("line 4: expected a unit quaternion"), std::string::npos);
   EXPECT_NE(error("0.5 0 0.25", "0.5 2e8 0.25").find("line 3: a position more than 1e+08 m"), std::string::npos);
-  EXPECT_NE(error("\n.\n", "\n").find("the text ends too early"), std::string::npos);
+  EXPECT_NE(error("\n.\n", "\n").find("the text ends too early: its last line must be a dot"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "").find("it is empty"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: expected * and an object's name"), std::string::npos);
   EXPECT_NE(errorOf(".txt", "").find("must end in .yaml, .yml or .scene"), std::string::npos);
   for (std::size_t end = 0; end < std::string(kScene).size() - 2; ++end)
     ASSERT_NE(errorOf(".scene", std::string(kScene).substr(0, end)), "") << end;
+}
+
+/// Of quaternions written with two digits the direction counts.
+TEST(WorldFile, RoundedQuaternionsAreRotations) {
+  std::string text = kScene;
+  const std::string exact = "0 0 0.7071068 0.7071068";
+  text.replace(text.find(exact), exact.size(), "0 0 0.7 0.7");
+  const auto poseIn = [](const std::string& scene) { return loadWorldFile(written(".scene", scene))[0].X_frame_B; };
+  EXPECT_TRUE(poseIn(text).isApprox(poseIn(kScene), 1e-6));
 }
 
 TEST(WorldFile, ConesAreMeshes) {

@@ -86,7 +86,10 @@ class Words {
     const Vector3d p = vector();
     if (!isNearOrigin(p)) fail("a position more than " + numberText(kFarthestPose) + " m from the origin");
     const Vector3d axis = vector();
-    const auto pose = poseOf(p, {number(), axis.x(), axis.y(), axis.z()});
+    Quaterniond q(number(), axis.x(), axis.y(), axis.z());
+    constexpr double kRounded = 0.05;  // files written by hand have two digits
+    if (std::abs(q.norm() - 1.0) < kRounded) q.normalize();
+    const auto pose = poseOf(p, q);
     if (!pose) fail("expected a unit quaternion");
     return *pose;
   }
@@ -167,12 +170,14 @@ std::vector<WorldObject> parseMoveitScene(const std::string& text) {
   std::vector<WorldObject> objects;
   if (!words.goOn()) words.fail("it is empty");
   words.rest();  // the scene's name
-  for (std::string mark; (mark = words.word()) != ".";) {
+  for (;;) {
+    if (!words.goOn()) words.fail("the text ends too early: its last line must be a dot");
+    const std::string mark = words.word();
+    if (mark == ".") return objects;
     if (mark != "*") words.fail("expected * and an object's name, or a last line with a dot, not " + shownText(mark));
     if (objects.size() == std::size_t(kMaxObjects)) words.fail("more than " + std::to_string(kMaxObjects) + " objects");
     objects.push_back(readObject(words));
   }
-  return objects;
 }
 
 }  // namespace sdf_ccd

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "small_monitor.h"
+
+namespace sdf_ccd::fuzz {
+
+/// A request about one motion; its numbers may be anything that a message can hold.
+inline QueryMotion::Request motionRequestOf(Numbers& numbers) {
+  QueryMotion::Request request;
+  const std::size_t what = numbers.byte();
+  request.allow_beyond_limits = (what & 1) != 0;
+  ros::Duration time;
+  // Mostly up to 4 s after the previous time; sometimes any value that a message can hold.
+  const auto nextTime = [&] {
+    time += ros::Duration(numbers.below(4), 1000000 * numbers.byte());
+    return numbers.below(32) > 0
+               ? time
+               : ros::Duration(static_cast<std::int32_t>(numbers.byte() * 0x01010101U), numbers.byte() * 3900000);
+  };
+  if (what & 2) {
+    for (std::size_t i = numbers.below(4); i > 0; --i) request.trajectory.joint_names.push_back(nameOf(numbers));
+    request.trajectory.points.resize(numbers.below(5));
+    for (auto& point : request.trajectory.points) {
+      point.time_from_start = nextTime();
+      const std::size_t count = numbers.below(16) == 0 ? numbers.below(4) : request.trajectory.joint_names.size();
+      for (std::size_t i = 0; i < count; ++i) point.positions.push_back(numbers.real());
+    }
+  }
+  if (what & 4) {
+    auto& poses = request.multi_dof_trajectory;
+    poses.header.frame_id = nameOf(numbers);
+    for (std::size_t i = numbers.below(3); i > 0; --i) poses.joint_names.push_back(nameOf(numbers));
+    poses.points.resize(numbers.below(5));
+    for (auto& point : poses.points) {
+      point.time_from_start = nextTime();
+      point.transforms.resize(numbers.below(16) == 0 ? numbers.below(4) : poses.joint_names.size());
+      for (auto& transform : point.transforms) takePose(numbers, transform.rotation, transform.translation);
+    }
+  }
+  for (std::size_t i = what & 8 ? numbers.below(3) : 0; i > 0; --i) {
+    request.other_joints.push_back(nameOf(numbers));
+    request.other_positions.push_back(numbers.real());
+  }
+  if (what & 16) {
+    for (std::size_t i = numbers.below(3); i > 0; --i) request.links.push_back(nameOf(numbers));
+    request.poses.resize(numbers.below(5));
+    for (auto& poses : request.poses) {
+      poses.time_from_start = nextTime();
+      poses.poses.resize(numbers.below(16) == 0 ? numbers.below(4) : request.links.size());
+      for (auto& pose : poses.poses) takePose(numbers, pose.orientation, pose.position);
+    }
+  }
+  return request;
+}
+
+}  // namespace sdf_ccd::fuzz
