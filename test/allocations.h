@@ -30,11 +30,25 @@ void* operator new(std::size_t size) {
   if (!memory) throw std::bad_alloc();
   return memory;
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto side = static_cast<std::size_t>(alignment);
+  ++sdf_ccd::test::allocations;
+  void* const memory = std::aligned_alloc(side, (size + side - 1) / side * side);
+  if (!memory) throw std::bad_alloc();
+  sdf_ccd::test::hold(static_cast<long>(malloc_usable_size(memory)));
+  return memory;
+}
 void operator delete(void* memory) noexcept {
   sdf_ccd::test::hold(-static_cast<long>(malloc_usable_size(memory)));
   std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  operator delete(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   operator delete(memory);
 }
 

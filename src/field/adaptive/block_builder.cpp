@@ -93,11 +93,13 @@ BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth,
     fits = fits && octants.leaf[k];
   }
   if (!fits && !last) return divide(fit, near, depth, octants, taker);
-  for (int k = 0; k < 8; ++k) built.split[k] = octants.leaf[k] ? *octants.leaf[k] : fit.roundedLeaf(k, half_scale);
+  std::array<FittedLeaf, 8> split;
+  for (int k = 0; k < 8; ++k) split[k] = octants.leaf[k] ? *octants.leaf[k] : fit.roundedLeaf(k, half_scale);
   const auto far = [&](const FittedLeaf& leaf) { return provedFar(half_scale, leaf.word, built.distance); };
-  if (fits && std::all_of(built.split.begin(), built.split.end(), far) && holdsFar(built.distance, depth)) return built;
+  if (fits && std::all_of(split.begin(), split.end(), far) && holdsFar(built.distance, depth)) return built;
   if (!fits) capped_ = true;
   built.kind = BuiltCell::kSplit;
+  built.split = std::make_unique<std::array<FittedLeaf, 8>>(split);
   taker.count(sizeof(SplitLeaves) + 8 * sizeof(std::uint8_t));
   return built;
 }

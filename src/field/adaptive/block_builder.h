@@ -17,9 +17,9 @@ namespace sdf_ccd {
 /// The content of a cell.
 struct BuiltCell {
   enum Kind { kFar, kLeaf, kWide, kSplit, kNode } kind = kFar;
-  double distance = 0.0;  ///< far: at the centre
-  FittedLeaf leaf;        ///< wide: the leaf that all eight cells of the octant share
-  std::array<FittedLeaf, 8> split;
+  double distance = 0.0;                             ///< far: at the centre
+  FittedLeaf leaf;                                   ///< wide: the leaf that all eight cells of the octant share
+  std::unique_ptr<std::array<FittedLeaf, 8>> split;  ///< not in the cell itself: a node has 64 cells, most of them far
   std::unique_ptr<std::array<BuiltCell, 64>> children;
 };
 

@@ -6,10 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <tbb/concurrent_vector.h>
-
 #include "adaptive_shape.h"
 #include "block_builder.h"
+#include "built_cells.h"
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
@@ -19,38 +18,64 @@
 namespace sdf_ccd {
 namespace {
 
-class AdaptiveBuilder : private CellTaker {
+class AdaptiveBuilder {
  public:
   AdaptiveBuilder(const Solid& solid, const AdaptiveShape& shape, std::size_t max_bytes)
-      : surface_(solid), shape_(shape), error_(shape.error_bound), max_bytes_(max_bytes), blocks_(surface_, shape_) {}
+      : surface_(solid),
+        shape_(shape),
+        error_(shape.error_bound),
+        capped_error_(std::max(error_, unprovedError(shape))),
+        max_bytes_(max_bytes),
+        blocks_(surface_, shape_) {}
 
   AdaptiveGrid build(const Progress& progress);
 
  private:
-  void count(std::size_t bytes) override;
-  void takeDistance(std::size_t index, double distance) override {
-    centers_[index] = static_cast<float>(distance / shape_.cell);
-  }
-  void take(std::size_t index, BuiltCell&& cell) override { built_.emplace_back(index, std::move(cell)); }
+  class BlockTaker;
 
+  /// Leaves of the last depth that are not proved have the error bound of any 1-Lipschitz function [m].
+  static double unprovedError(const AdaptiveShape& shape) {
+    return kHalfSqrt3 * shape.unit() + AdaptiveGrid::leafScaleFor(shape.unit(), shape.band).rounding();
+  }
+
+  void count(std::size_t bytes);
   void buildBlocks(const Progress& progress);
   /// Sets the words of all top cells; those of cells near the surface are replaced later.
   void setEmptySpheres();
-  void flatten(const BuiltCell& cell, std::size_t node, int depth);
-  void addLeaf(const FittedLeaf& leaf);
-  void addSplit(const std::array<FittedLeaf, 8>& split);
+  void reserve();
+  /// Moves the cells of all blocks to data_, in the order of top cells.
+  void join();
+  void append(const BuiltCells& cells, std::size_t top);
 
   SurfaceIndex surface_;
   AdaptiveShape shape_;
-  double error_;
+  double error_, capped_error_;  ///< bounds if all leaves are proved, and if some are not [m]
   std::size_t max_bytes_;
   BlockBuilder blocks_;
-  std::vector<float> centers_;  ///< distances at the top cells' centres [top cells]
-  tbb::concurrent_vector<std::pair<std::size_t, BuiltCell>> built_;  ///< top cells near the surface, in no order
+  std::vector<float> centers_;                            ///< distances at the top cells' centres [top cells]
+  std::vector<std::unique_ptr<const BuiltCells>> built_;  ///< by block; null if it is far
   const CancelPoint cancel_;
   std::atomic<std::size_t> bytes_{0};
   AdaptiveData data_;
-  std::vector<std::uint8_t> split_errors_;  ///< of the splits' leaves; appended to AdaptiveData::leaf_errors last
+  std::size_t leaf_count_ = 0;  ///< without those of splits
+};
+
+/// Takes the cells of one block.
+class AdaptiveBuilder::BlockTaker : public CellTaker {
+ public:
+  explicit BlockTaker(AdaptiveBuilder& builder) : builder_(builder), writer_(builder.shape_, builder.capped_error_) {}
+
+  void count(std::size_t bytes) override { builder_.count(bytes); }
+  void takeDistance(std::size_t index, double distance) override {
+    builder_.centers_[index] = static_cast<float>(distance / builder_.shape_.cell);
+  }
+  void take(std::size_t index, BuiltCell&& cell) override { writer_.add(index, std::move(cell)); }
+
+  std::unique_ptr<const BuiltCells> finish() { return writer_.finish(); }
+
+ private:
+  AdaptiveBuilder& builder_;
+  CellWriter writer_;
 };
 
 void AdaptiveBuilder::count(std::size_t bytes) {
@@ -74,69 +99,14 @@ void AdaptiveBuilder::buildBlocks(const Progress& progress) {
   // Spread over the grid, so that the part done is at any time a fair sample of the whole.
   const SpreadOrder order(nearest.size());
   ProgressCounter counter(progress, nearest.size());
+  built_.resize(nearest.size());
   parallelFor(std::size_t{0}, nearest.size(), [&](std::size_t k) {
     const std::size_t i = order[k];
-    blocks_.build(blocks_.block(i), nearest[i], *this);
+    BlockTaker taker(*this);
+    blocks_.build(blocks_.block(i), nearest[i], taker);
+    built_[i] = taker.finish();
     counter.add();
   });
-}
-
-void AdaptiveBuilder::addLeaf(const FittedLeaf& leaf) {
-  data_.leaves.push_back(leaf.word);
-  data_.leaf_errors.push_back(leaf_error::code(leaf.error, shape_.error_bound));
-}
-
-void AdaptiveBuilder::addSplit(const std::array<FittedLeaf, 8>& split) {
-  SplitLeaves& leaves = data_.splits.emplace_back();
-  for (int k = 0; k < 8; ++k) {
-    leaves.leaves[k] = split[k].word;
-    split_errors_.push_back(leaf_error::code(split[k].error, shape_.error_bound));
-  }
-}
-
-void AdaptiveBuilder::flatten(const BuiltCell& cell, std::size_t node, int depth) {
-  NodeBases& bases = data_.bases[node];
-  bases = {static_cast<std::uint32_t>(data_.leaves.size()), static_cast<std::uint32_t>(data_.splits.size()),
-           static_cast<std::uint32_t>(data_.nodes.size())};
-  const double step = AdaptiveGrid::farStepFor(shape_.cell / double(1 << (2 * depth)), shape_.band);
-  std::array<std::uint8_t, 64>& codes = data_.nodes[node].codes;
-  int leaves = node_code::kLeaf, splits = node_code::kSplit, nodes = node_code::kNode;
-  for (int half = 0; half < 8; ++half) {
-    const BuiltCell& first = (*cell.children)[childIndex(half, 0)];
-    if (first.kind != BuiltCell::kWide) continue;
-    addLeaf(first.leaf);
-    for (int k = 0; k < 8; ++k) codes[childIndex(half, k)] = static_cast<std::uint8_t>(node_code::kWide + leaves);
-    ++leaves;
-  }
-  for (int i = 0; i < 64; ++i) {
-    const BuiltCell& child = (*cell.children)[i];
-    int code = 0;
-    switch (child.kind) {
-      case BuiltCell::kFar:
-        code = node_code::far(child.distance / step);
-        break;
-      case BuiltCell::kLeaf:
-        addLeaf(child.leaf);
-        code = leaves++;
-        break;
-      case BuiltCell::kWide:
-        continue;
-      case BuiltCell::kSplit:
-        addSplit(child.split);
-        code = splits++;
-        break;
-      case BuiltCell::kNode:
-        code = nodes++;
-        break;
-    }
-    codes[i] = static_cast<std::uint8_t>(code);
-  }
-  std::size_t next = bases.node;
-  data_.nodes.resize(data_.nodes.size() + (nodes - node_code::kNode));
-  data_.bases.resize(data_.nodes.size());
-  for (const BuiltCell& child : *cell.children) {
-    if (child.kind == BuiltCell::kNode) flatten(child, next++, depth + 1);
-  }
 }
 
 void AdaptiveBuilder::setEmptySpheres() {
@@ -149,43 +119,80 @@ void AdaptiveBuilder::setEmptySpheres() {
   });
 }
 
+void AdaptiveBuilder::reserve() {
+  std::size_t nodes = 0, splits = 0;
+  for (const auto& cells : built_) {
+    if (!cells) continue;
+    nodes += cells->nodes.size();
+    leaf_count_ += cells->leaves.size();
+    splits += cells->splits.size();
+  }
+  data_.nodes.reserve(nodes);
+  data_.bases.reserve(nodes);
+  data_.leaves.reserve(leaf_count_);
+  data_.splits.reserve(splits);
+  data_.leaf_errors.resize(leaf_count_ + 8 * splits);
+}
+
+void AdaptiveBuilder::append(const BuiltCells& cells, std::size_t top) {
+  const auto [index, first] = cells.tops[top];
+  const NodeBases end = cells.end(top);
+  const auto appendPart = [](auto& to, const auto& from, std::size_t first, std::size_t end) {
+    to.insert(to.end(), from.begin() + std::ptrdiff_t(first), from.begin() + std::ptrdiff_t(end));
+  };
+  const NodeBases at{static_cast<std::uint32_t>(data_.leaves.size()), static_cast<std::uint32_t>(data_.splits.size()),
+                     static_cast<std::uint32_t>(data_.nodes.size())};
+  std::uint32_t& word = data_.top[index];
+  if (end.node > first.node) {
+    word = at.node << 2 | top_word::kNode;
+  } else {
+    word = end.split > first.split ? at.split << 2 | top_word::kSplit : at.leaf << 2 | top_word::kLeaf;
+  }
+  const auto code = [&](const BuiltCells::ErrorCodes& codes) { return blocks_.capped() ? codes.capped : codes.proved; };
+  const auto errors = data_.leaf_errors.begin();
+  std::transform(cells.leaf_errors.begin() + first.leaf, cells.leaf_errors.begin() + end.leaf, errors + at.leaf, code);
+  std::transform(cells.split_errors.begin() + 8 * std::ptrdiff_t(first.split),
+                 cells.split_errors.begin() + 8 * std::ptrdiff_t(end.split),
+                 errors + std::ptrdiff_t(leaf_count_ + 8 * std::size_t(at.split)), code);
+  for (std::size_t i = first.node; i < end.node; ++i) {
+    const NodeBases& bases = cells.bases[i];
+    data_.bases.push_back({at.leaf + (bases.leaf - first.leaf), at.split + (bases.split - first.split),
+                           at.node + (bases.node - first.node)});
+  }
+  appendPart(data_.nodes, cells.nodes, first.node, end.node);
+  appendPart(data_.leaves, cells.leaves, first.leaf, end.leaf);
+  appendPart(data_.splits, cells.splits, first.split, end.split);
+}
+
+void AdaptiveBuilder::join() {
+  reserve();
+  const Vector3i& size = shape_.size;
+  const Vector3i blocks = blocks_.blocks();
+  std::vector<std::uint8_t> done(built_.size(), 0);  // top cells of each block
+  for (int z = 0; z < size.z(); ++z)
+    for (int y = 0; y < size.y(); ++y) {
+      cancel_.check();
+      const std::size_t row =
+          (std::size_t(z / BlockBuilder::kSide) * blocks.y() + y / BlockBuilder::kSide) * blocks.x();
+      const std::size_t last = (std::size_t(z) * size.y() + y + 1) * size.x() - 1;
+      for (std::size_t i = row; i < row + blocks.x(); ++i) {
+        if (!built_[i]) continue;
+        const BuiltCells& cells = *built_[i];
+        for (; done[i] < cells.order.size() && cells.tops[cells.order[done[i]]].index <= last; ++done[i])
+          append(cells, cells.order[done[i]]);
+        if (done[i] == cells.order.size()) built_[i].reset();
+      }
+    }
+}
+
 AdaptiveGrid AdaptiveBuilder::build(const Progress& progress) {
   count(shape_.count() * sizeof(std::uint32_t));
   centers_.resize(shape_.count());
   buildBlocks(progress);
-
-  if (blocks_.capped()) {
-    // Leaves of the last depth that are not proved have the error bound of any 1-Lipschitz function.
-    const double side = shape_.unit();
-    shape_.error_bound = std::max(error_, kHalfSqrt3 * side + AdaptiveGrid::leafScaleFor(side, shape_.band).rounding());
-  }
+  if (blocks_.capped()) shape_.error_bound = capped_error_;
   setEmptySpheres();
-  std::sort(built_.begin(), built_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (auto& [index, cell] : built_) {
-    cancel_.check();
-    std::uint32_t& word = data_.top[index];
-    switch (cell.kind) {
-      case BuiltCell::kFar:
-      case BuiltCell::kWide:  // only in nodes
-        break;
-      case BuiltCell::kLeaf:
-        word = static_cast<std::uint32_t>(data_.leaves.size() << 2) | top_word::kLeaf;
-        addLeaf(cell.leaf);
-        break;
-      case BuiltCell::kSplit:
-        word = static_cast<std::uint32_t>(data_.splits.size() << 2) | top_word::kSplit;
-        addSplit(cell.split);
-        break;
-      case BuiltCell::kNode:
-        word = static_cast<std::uint32_t>(data_.nodes.size() << 2) | top_word::kNode;
-        data_.nodes.emplace_back();
-        data_.bases.emplace_back();
-        flatten(cell, data_.nodes.size() - 1, 0);
-        cell.children.reset();
-        break;
-    }
-  }
-  data_.leaf_errors.insert(data_.leaf_errors.end(), split_errors_.begin(), split_errors_.end());
+  centers_ = {};
+  join();
   return {shape_, std::move(data_)};
 }
 
