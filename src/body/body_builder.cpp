@@ -95,6 +95,18 @@ class BodyBuilder {
     return parts;
   }
 
+  /// Makes shells that are expected to be refused as too large before the fields are built, which may take long.
+  void makeLargeShells(const BodyNeeds& needs) {
+    if (!needs.shell || mayBeCoarser(options_)) return;
+    const ShellUse use{hasSiblings(), needs.decides};
+    for (PooledMesh* const mesh : meshes_) {
+      if (!mesh) continue;
+      const ShellOptions options = pool_.shellOptions(*mesh, use);
+      if (expectedPoints(mesh->mesh, options) <= static_cast<double>(options.max_points)) continue;
+      note(pool_.makeShell(*mesh, use).outcome);
+    }
+  }
+
   PointShell makeShell(const std::vector<BodyPart>& parts, const BodyNeeds& needs) {
     std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings always have them
     primitives.reserve(meshes_.size());
@@ -195,6 +207,7 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   const Doubt doubt = builder.doubt();
   body.doubtful = doubt.of_outside;
   body.inside_is_doubtful = doubt.of_inside;
+  builder.makeLargeShells(needs);
   if (needs.field) body.parts = builder.makeParts(progress);
   if (needs.witnesses) {
     PointShell witnesses = builder.makeWitnesses();

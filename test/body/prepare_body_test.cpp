@@ -122,6 +122,24 @@ TEST(PrepareBody, SaysWhatIsWrong) {
   EXPECT_THROW(monitor.check({{at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0)}}), std::invalid_argument);
 }
 
+TEST(PrepareBody, AShellThatWouldBeTooLargeIsRefusedBeforeTheFieldIsBuilt) {
+  BodyDescription ball;
+  ball.name = ball.frame = "ball";
+  ball.geometry.push_back(
+      {std::make_shared<const TriangleMesh>(test::icosphere(0.1, 2)), Isometry3d::Identity(), "ball.stl"});
+  BodyOptions options = optionsFor({1e-3, {}});
+  options.divides_max_error = false;
+  options.shell.max_points = 1000;
+  options.field.max_bytes = 100000;  // the field would be refused, too
+  const auto failure = [&] {
+    MeshPool pool(options);
+    return buildBody(ball, {}, options, pool, {}).body.failure;
+  };
+  EXPECT_NE(failure().find("needs more than 1000 points"), std::string::npos) << failure();
+  options.shell.max_points = kMaxShellPoints;
+  EXPECT_NE(failure().find("field: "), std::string::npos) << failure();
+}
+
 TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
   const auto describe = [](const std::string& name) {
     BodyDescription body;

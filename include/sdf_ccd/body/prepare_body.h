@@ -69,7 +69,8 @@ BodyOptions optionsFor(const Accuracy& accuracy);
 /// Curved surfaces have a point every third of max_error, flat ones have points along their edges: a ball of 0.1 m
 /// takes 400,000 points and several seconds at 1 mm, a hundredth of that at 1 cm.
 /// @throws std::invalid_argument if the shape is not valid, or the accuracy needs more memory than a body may take:
-/// kMaxFieldBytes of field, kMaxShellPoints.
+/// kMaxFieldBytes of field, kMaxShellPoints. A mesh's shell that would have too many points is refused before its field
+/// is built.
 Body prepareBody(const std::string& name, const Primitive& primitive, const Accuracy& accuracy);
 
 /// The same for a mesh, in its frame. Its faces are oriented outward, and openings are closed.
