@@ -1,6 +1,7 @@
 #include "build_cost.h"
 
 #include <algorithm>
+#include <iostream>
 #include <stdexcept>
 
 #include "field/source_field.h"
@@ -43,23 +44,32 @@ BodyOptions limits(const FieldOptions& field) {
 }  // namespace
 
 BodyCost BuildCost::expected(const Wanted& wanted) const {
-  const TriangleMesh& mesh = wanted.mesh->mesh;
+  const TriangleMesh& mesh = *wanted.mesh;
   BodyCost cost;
   cost.name = wanted.name;
-  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, wanted.mesh->made), wanted.options));
+  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, *wanted.made), wanted.options));
   ShellOptions shell;
   shell.spacing = spacing_.value_or(shellSpacing(errorOf(wanted.options, mesh)));
-  if (!wanted.mesh->voxels) cost.addShell(expectedPoints(mesh, shell));
+  if (wanted.has_shell) cost.addShell(expectedPoints(mesh, shell));
   return cost;
 }
 
-void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOptions& options) {
+void BuildCost::add(const Wanted& wanted) {
   try {
-    cost_.add(expected({name, &mesh, options}));
-    wanted_.push_back({name, &mesh, options});
+    cost_.add(expected(wanted));
+    wanted_.push_back(wanted);
   } catch (const std::exception&) {
     // Building it will report the error.
   }
+}
+
+void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOptions& options) {
+  add({name, &mesh.mesh, &mesh.made, !mesh.voxels, options});
+}
+
+void BuildCost::addField(const std::string& name, const TriangleMesh& mesh, MadeSolid& made,
+                         const FieldOptions& options) {
+  add({name, &mesh, &made, false, options});
 }
 
 std::string BuildCost::whatFits() const {
@@ -67,8 +77,10 @@ std::string BuildCost::whatFits() const {
   for (int times = 2; times <= kMax; times *= 2) {
     SceneCost cost;
     try {
-      for (const Wanted& wanted : wanted_)
-        cost.add(expected({wanted.name, wanted.mesh, coarser(wanted.options, times)}));
+      for (Wanted wanted : wanted_) {
+        wanted.options = coarser(wanted.options, times);
+        cost.add(expected(wanted));
+      }
       sdf_ccd::requireAffordable(cost, limits(wanted_.front().options));
       return asOption(coarser(wanted_.front().options, times));
     } catch (const std::length_error&) {
@@ -86,6 +98,12 @@ void BuildCost::requireAffordable() const {
     const std::string fits = whatFits();
     throw std::length_error(refused.what() + (fits.empty() ? "" : "; " + fits + " would fit"));
   }
+}
+
+void BuildCost::announce() const {
+  constexpr double kReported = 1.0;  // [s]
+  requireAffordable();
+  if (cost_.seconds > kReported) std::cout << "expected " << summary(cost_) << std::endl;
 }
 
 }  // namespace sdf_ccd::tools

@@ -22,20 +22,31 @@ class BuildCost {
   /// @param spacing  of the shells' points [m]; if not set, shellSpacing() of the field's error bound.
   explicit BuildCost(std::optional<double> spacing) : spacing_(spacing) {}
 
-  /// Adds a mesh. One that cannot be built adds no cost. The mesh must outlive this object.
+  /// Adds the field of a mesh, and its shell if it is not of voxels. A mesh that cannot be built adds no cost. It must
+  /// outlive this object.
   void add(const std::string& name, PooledMesh& mesh, const FieldOptions& options);
+
+  /// Adds a field alone.
+  void addField(const std::string& name, const TriangleMesh& mesh, MadeSolid& made, const FieldOptions& options);
 
   const SceneCost& cost() const { return cost_; }
 
   /// @throws std::length_error as requireAffordable() for scenes; the message names an option that would fit.
   void requireAffordable() const;
 
+  /// requireAffordable(), and prints the expected cost if building takes more than a second.
+  void announce() const;
+
  private:
   struct Wanted {
     std::string name;
-    PooledMesh* mesh;
+    const TriangleMesh* mesh;
+    MadeSolid* made;
+    bool has_shell;
     FieldOptions options;
   };
+
+  void add(const Wanted& wanted);
 
   BodyCost expected(const Wanted& wanted) const;
   /// The resolution option, coarsened by a power of two, that is affordable; empty if 1024 times coarser is not.

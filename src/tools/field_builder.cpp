@@ -26,6 +26,11 @@ void warnOf(const MeshQuality& quality, const std::string& source) {
   if (!warning.empty()) std::cerr << "sdf_ccd: " << source << ": " << warning << std::endl;
 }
 
+DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options) {
+  ProgressBar bar(title);
+  return buildField(source, options, [&](double share) { bar(share); });
+}
+
 }  // namespace
 
 OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& mesh) {
@@ -40,14 +45,12 @@ void printSolid(const SolidReport& report, const std::string& indent) {
   if (!doubt.empty()) std::cout << indent << "warning: " << doubt << "\n";
 }
 
-DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options) {
-  ProgressBar bar(title);
-  return buildField(solid, options, [&](double share) { bar(share); });
-}
-
-DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options) {
-  ProgressBar bar(title);
-  return buildField(source, options, [&](double share) { bar(share); });
+DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
+                              const FieldOptions& options) {
+  BuildCost cost({});
+  cost.addField(file, mesh, made, options);
+  cost.announce();
+  return buildWithBar("field", SolidSource(mesh, made), options);
 }
 
 PooledMesh& FieldBuilder::find(const std::shared_ptr<const TriangleMesh>& mesh, bool voxels) {
@@ -71,12 +74,6 @@ void FieldBuilder::expectVoxels(const std::string& name, const std::shared_ptr<c
   const auto start = std::chrono::steady_clock::now();
   cost_.add(name, find(mesh, true), resolution_.fieldOptions(voxel_size / 2.0));
   seconds_ += secondsSince(start);
-}
-
-void FieldBuilder::requireAffordable() const {
-  constexpr double kReported = 1.0;  // [s]
-  cost_.requireAffordable();
-  if (cost_.cost().seconds > kReported) std::cout << "expected " << summary(cost_.cost()) << std::endl;
 }
 
 FieldBuilder::Made FieldBuilder::make(const std::string& name, PooledMesh& mesh) {

@@ -24,9 +24,12 @@ OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& me
 /// nothing if there is neither.
 void printSolid(const SolidReport& report, const std::string& indent);
 
-/// Builds the field of a solid, with a progress bar of this title.
-DistanceField buildWithBar(const std::string& title, const Solid& solid, const FieldOptions& options);
-DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options);
+/// Builds the field of a mesh from a file, with a progress bar. Prints the expected cost first if that is more than a
+/// second.
+/// @param made  of the mesh.
+/// @throws std::length_error beyond the monitor's limits, with a setting that would fit, before anything is built.
+DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
+                              const FieldOptions& options);
 
 /// Builds fields and shells of meshes, writes them as NAME.field and NAME.shell and reports on each.
 class FieldBuilder {
@@ -43,7 +46,7 @@ class FieldBuilder {
 
   /// Prints the expected total cost if building takes more than a second.
   /// @throws std::length_error beyond the monitor's limits, with a setting that would fit.
-  void requireAffordable() const;
+  void requireAffordable() const { cost_.announce(); }
 
   /// Builds and writes the field and shell of a mesh of any quality; its components are oriented outward first.
   /// Existing files are overwritten.

@@ -88,15 +88,15 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
     if (!wants_field) return std::nullopt;
     MadeSolid made;
     made.may_be_voxels = true;
-    return buildWithBar("field", SolidSource(mesh, made), arguments.resolution.fieldOptions(voxel_size / 2.0));
+    return buildAffordable(file, mesh, made, arguments.resolution.fieldOptions(voxel_size / 2.0));
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);
   std::cout << "openings             " << summary(findOpenings(oriented.mesh)) << std::endl;
-  const Solid solid(oriented.mesh);
-  printSolid(solid.report(), "solid: ");
+  MadeSolid made;
+  printSolid(SolidSource(oriented.mesh, made).solid().report(), "solid: ");
   if (!wants_field) return std::nullopt;
-  return buildWithBar("field", solid, arguments.resolution.fieldOptions());
+  return buildAffordable(file, oriented.mesh, made, arguments.resolution.fieldOptions());
 }
 
 void run(const Arguments& arguments) {

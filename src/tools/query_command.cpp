@@ -43,7 +43,9 @@ DistanceField fieldOf(const Arguments& arguments) {
   if (!arguments.field.empty()) return loadField(arguments.field);
   FieldOptions options = arguments.resolution.fieldOptions();
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
-  return buildWithBar("field", Solid(orientWithWarning(arguments.mesh, loadMesh(arguments.mesh)).mesh), options);
+  const OrientedMesh oriented = orientWithWarning(arguments.mesh, loadMesh(arguments.mesh));
+  MadeSolid made;
+  return buildAffordable(arguments.mesh, oriented.mesh, made, options);
 }
 
 /// Calls `answer` with the index of each segment, on all cores.

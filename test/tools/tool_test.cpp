@@ -57,6 +57,26 @@ TEST_F(Tool, BuildSaysWhatItIsExpectedToTakeAndRefusesTooMuch) {
   EXPECT_FALSE(fs::exists(path("none")));
 }
 
+TEST_F(Tool, QueryAndInfoSayWhatAFieldIsExpectedToTakeAndRefuseTooMuch) {
+  TriangleMesh nested = test::icosphere(0.5, 3);
+  for (const double radius : {0.44, 0.32}) {
+    nested = merged(std::move(nested), test::flipped(test::icosphere(radius, 3)));
+    nested = merged(std::move(nested), test::icosphere(radius - 0.06, 3));
+  }
+  write("nested.off", test::off(nested));
+  const auto query = [](const std::string& mesh) { return "query --segments in.csv --out out.csv --mesh " + mesh; };
+  const auto info = [](const std::string& mesh) { return "info --slice z=0 --out out.png " + mesh; };
+  EXPECT_EQ(run(query("ball.off --max-error 0.01")).out, "");
+  for (const std::string& command : {query("ball.off --max-error 2e-5"), info("ball.off --max-error 2e-5")}) {
+    const ToolRun longer = run(command);
+    EXPECT_EQ(longer.exit_code, kDone) << longer.error;
+    EXPECT_NE(longer.out.find("expected about "), std::string::npos) << command << ": " << longer.out;
+    EXPECT_NE(longer.out.find(" s to build; most for ball.off: "), std::string::npos) << longer.out;
+  }
+  expectRefused(query("nested.off --max-error 1e-6"), "a max_error of 1e-06 m would take about ");
+  expectRefused(info("nested.off --max-error 1e-6"), " would fit\n");
+}
+
 TEST_F(Tool, InfoTellsWhatFilesHold) {
   ASSERT_EQ(run("build --mesh ball.off --out made --resolution 16").exit_code, kDone);
   EXPECT_NE(run("info made/ball.field").out.find("cells of 0.0625 m"), std::string::npos);
