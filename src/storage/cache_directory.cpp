@@ -22,6 +22,14 @@ bool isOwn(const struct stat& status) {
   return status.st_uid == ::geteuid() || status.st_uid == 0;
 }
 
+/// @throws std::runtime_error if another user owns this or can write to it.
+void requireOwn(const struct stat& status, const std::string& path) {
+  if (!isOwn(status)) throw std::runtime_error(path + ": belongs to another user");
+  // A group of the user's own is usual.
+  const bool by_group = (status.st_mode & S_IWGRP) != 0 && status.st_gid != ::getegid();
+  if (by_group || (status.st_mode & S_IWOTH) != 0) throw std::runtime_error(path + ": other users can write to it");
+}
+
 /// "hash.field", "hash.shell" and related files.
 bool isOfCache(const std::string& file) {
   for (const char* ending : {".field", ".shell", ".field.doubt", ".field.lock", ".shell.lock"}) {
@@ -60,18 +68,14 @@ void requireOwnDirectory(const std::string& directory) {
   if (!error && ::stat(directory.c_str(), &status) != 0) error = {errno, std::generic_category()};
   if (error) throw std::runtime_error(directory + ": " + error.message());
   if (!S_ISDIR(status.st_mode)) throw std::runtime_error(directory + ": is not a directory");
-  // A group of the user's own is usual.
-  const bool by_group = (status.st_mode & S_IWGRP) != 0 && status.st_gid != ::getegid();
-  if (!isOwn(status) || by_group || (status.st_mode & S_IWOTH) != 0) {
-    throw std::runtime_error(directory + ": other users can write to it");
-  }
+  requireOwn(status, directory);
 }
 
 void requireOwnFile(const std::string& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) throw std::runtime_error(path + ": " + std::strerror(errno));
   if (!S_ISREG(status.st_mode)) throw std::runtime_error(path + ": is a symbolic link or not a regular file");
-  if (!isOwn(status)) throw std::runtime_error(path + ": belongs to another user");
+  requireOwn(status, path);
 }
 
 void markUsed(const std::string& path) {

@@ -6,11 +6,12 @@
 namespace sdf_ccd {
 
 /// Makes the directory, for its owner alone, if it does not exist.
-/// @throws std::runtime_error if it cannot be made, or if others may write to it: their files would be
-/// trusted.
+/// @throws std::runtime_error if it cannot be made, belongs to another user than root, or others may write to it: their
+/// files would be trusted.
 void requireOwnDirectory(const std::string& directory);
 
-/// @throws std::runtime_error if the file is a link, no regular file, or somebody else's.
+/// @throws std::runtime_error if the file is a link or no regular file, belongs to another user than root, or others
+/// may write to it.
 void requireOwnFile(const std::string& path);
 
 /// Marks a file of the cache as used now.

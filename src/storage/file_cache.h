@@ -17,8 +17,8 @@ struct CacheOutcome {
 ///
 /// Safe against several processes: the second one waits for the first and loads its file; if that takes too
 /// long, as the first has stopped, it makes its own and leaves the cache alone. A file that is damaged, of another
-/// version, a link or somebody else's is made again; a directory that cannot be written, or that others may write to,
-/// affects only the saving. Existing files are loaded also from a read-only directory. Above `max_bytes`, the least
+/// version, a link, somebody else's, or one that others may write to is made again; a directory that cannot be written,
+/// or that others may write to, affects only the saving. Existing files are loaded also from a read-only directory. Above `max_bytes`, the least
 /// recently used files are removed.
 class FileCache {
  public:

@@ -125,6 +125,36 @@ TEST_F(TextCacheTest, IsItsOwnersAlone) {
   EXPECT_NE(outcome.warning.find("other users can write to it"), std::string::npos) << outcome.warning;
 }
 
+TEST_F(TextCacheTest, FilesThatOthersMayWriteToAreMadeAgain) {
+  get("a.field");
+  for (const mode_t mode : {0666, 0602}) {
+    ASSERT_EQ(::chmod((directory_ + "/a.field").c_str(), mode), 0);
+    const CacheOutcome outcome = get("a.field");
+    EXPECT_TRUE(made_);
+    EXPECT_EQ(outcome.warning, "rebuilt: " + directory_ + "/a.field: other users can write to it");
+  }
+}
+
+TEST_F(TextCacheTest, SaysWhatBelongsToAnotherUser) {
+  if (::geteuid() != 0) return;  // only root can give files away
+  constexpr uid_t kAnother = 65534;
+  get("a.field");
+  ASSERT_EQ(::chown((directory_ + "/a.field").c_str(), kAnother, -1), 0);
+  EXPECT_EQ(get("a.field").warning, "rebuilt: " + directory_ + "/a.field: belongs to another user");
+  ASSERT_EQ(::chown(directory_.c_str(), kAnother, -1), 0);
+  EXPECT_EQ(get("a.field").warning, "cache unavailable: " + directory_ + ": belongs to another user");
+}
+
+TEST_F(TextCacheTest, FilesOfAGroupAreItsMembersToo) {
+  if (::geteuid() != 0) return;  // only root can give files to a group that it is not in
+  get("a.field");
+  const std::string file = directory_ + "/a.field";
+  ASSERT_EQ(::chmod(file.c_str(), 0664), 0);
+  EXPECT_TRUE(get("a.field").from_cache);  // the process's own group
+  ASSERT_EQ(::chown(file.c_str(), -1, 65534), 0);
+  EXPECT_EQ(get("a.field").warning, "rebuilt: " + file + ": other users can write to it");
+}
+
 TEST_F(TextCacheTest, OthersCannotHoldALock) {
   get("a.field");
   struct stat status {};
