@@ -1,16 +1,27 @@
-#include "sdf_ccd/body/prepare_body.h"
-
+#include "given_resolution.h"
 #include "model/error_budget.h"
+#include "sdf_ccd/body/prepare_body.h"
 
 namespace sdf_ccd {
 
+void setFieldResolution(const FieldOptions& field, BodyOptions& options) {
+  options.cells_across = 0.0;
+  options.field = field;
+}
+
+void setShellSpacing(double spacing, BodyOptions& options) {
+  constexpr double kVertices = 0.4;  // of the spacing
+  options.points_across = 0.0;
+  options.shell.spacing = spacing;
+  options.shell.vertex_spacing = kVertices * spacing;
+}
+
 BodyOptions optionsForContacts(const std::optional<double>& accuracy) {
-  constexpr double kCoarsest = 0.005;             // [m]
-  constexpr double kPointsAcross = 25.0;          // the points of a robot's finger are then 2.5 mm apart
-  constexpr double kCell = 1.2, kVertices = 0.4;  // of the spacing
+  constexpr double kCoarsest = 0.005;     // [m]
+  constexpr double kPointsAcross = 25.0;  // the points of a robot's finger are then 2.5 mm apart
+  constexpr double kCell = 1.2;           // of the spacing
   BodyOptions options;
-  options.shell.spacing = accuracy.value_or(kCoarsest);
-  options.shell.vertex_spacing = kVertices * options.shell.spacing;
+  setShellSpacing(accuracy.value_or(kCoarsest), options);
   options.field.cell_size = kCell * options.shell.spacing;
   if (accuracy) return options;
   options.points_across = kPointsAcross;

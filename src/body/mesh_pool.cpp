@@ -85,8 +85,7 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
     warning = "field: error " + numberText(mesh.field->errorBound()) + " m instead of " +
               numberText(*options.max_error) + " m; cells cannot be smaller";
   }
-  if (!warning.empty()) made.outcome.warning = warning;
-  return {true, made.outcome};
+  return noted(made.outcome, warning);
 }
 
 MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, const ShellUse& use) {
@@ -99,9 +98,14 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, const ShellUse& use) {
     return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
   };
   CachedShell made = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
-  if (!warning.empty()) made.outcome.warning = warning;
   shell = std::move(made.shell);
-  return {true, made.outcome};
+  return noted(made.outcome, warning);
+}
+
+MeshPool::Made MeshPool::noted(CacheOutcome outcome, const std::string& warning) {
+  if (!outcome.file.empty()) files_.insert(outcome.file);
+  if (!warning.empty()) outcome.warning = warning;
+  return {true, std::move(outcome)};
 }
 
 }  // namespace sdf_ccd

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 
@@ -47,6 +48,9 @@ class MeshPool {
   SharedContent& content();
   GeometryKeys& keys() { return keys_; }
 
+  /// Names of the cache's files that hold what was made or loaded.
+  const std::set<std::string>& files() const { return files_; }
+
   struct Made {
     bool now = false;  ///< false: it existed already, for another body
     CacheOutcome outcome;
@@ -61,11 +65,15 @@ class MeshPool {
   Made makeShell(PooledMesh& mesh, const ShellUse& use);
 
  private:
+  /// Notes the file. A warning of the pool replaces that of the cache.
+  Made noted(CacheOutcome outcome, const std::string& warning);
+
   const BodyOptions options_;
   FileCache cache_;
   GeometryKeys keys_;
   SharedContent content_;
   std::unordered_map<std::string, PooledMesh> meshes_;  // by the geometry's key
+  std::set<std::string> files_;
 };
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -80,6 +81,12 @@ SceneCost affordableCost(const SceneDescription& description, const ScenePlan& p
   const SceneCost cost = expectedCost(description, plan, options);
   requireAffordable(cost, options);
   return cost;
+}
+
+ScenePlan affordablePlan(const SceneDescription& description, const BodyOptions& options) {
+  ScenePlan plan = planScene(description, planOptions(options));
+  plan.expected = std::make_shared<const SceneCost>(affordableCost(description, plan, options));
+  return plan;
 }
 
 }  // namespace sdf_ccd

@@ -56,6 +56,9 @@ void requireAffordable(const SceneCost& cost, const BodyOptions& options);
 /// @throws std::invalid_argument if max_error is larger than every body; std::length_error as requireAffordable().
 SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options);
 
+/// Plan of the scene, and the expected cost of building it. @throws as affordableCost().
+ScenePlan affordablePlan(const SceneDescription& description, const BodyOptions& options);
+
 /// One line: "about 9 MB and 4 s to build; most for link5: about 2 MB and 1 s".
 std::string summary(const SceneCost& cost);
 

@@ -84,12 +84,14 @@ struct FileCache::Identity {
   }
 };
 
-bool FileCache::load(const std::string& path, const Actions& actions, CacheOutcome& outcome) {
+bool FileCache::load(const std::string& name, const Actions& actions, CacheOutcome& outcome) const {
+  const std::string path = directory_ + "/" + name;
   try {
     requireOwnFile(path);
     actions.load(path);
     markUsed(path);
     outcome.from_cache = true;
+    outcome.file = name;
     outcome.warning.clear();
   } catch (const std::runtime_error& error) {
     outcome.warning = std::string("rebuilt: ") + error.what();
@@ -106,7 +108,7 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
     try {
       requireOwnDirectory(directory_);
       // Files appear whole, so reading needs no lock: the directory may be one that this process cannot write to.
-      if (found.exists && load(path, actions, outcome)) return outcome;
+      if (found.exists && load(name, actions, outcome)) return outcome;
       if (::access(directory_.c_str(), W_OK) != 0) throw std::runtime_error(directory_ + ": " + std::strerror(errno));
       lock = std::make_unique<FileLock>(path + ".lock", lock_seconds_);
     } catch (const std::runtime_error& error) {
@@ -115,11 +117,12 @@ CacheOutcome FileCache::get(const std::string& name, const Actions& actions) con
     }
   }
   // Made while this process waited; a file that failed to load before is not read again.
-  if (const Identity now(path); lock && now.exists && !(now == found) && load(path, actions, outcome)) return outcome;
+  if (const Identity now(path); lock && now.exists && !(now == found) && load(name, actions, outcome)) return outcome;
   actions.make();
   if (!lock) return outcome;
   try {
     actions.save(path);
+    outcome.file = name;
     trimCache(directory_, name, max_bytes_);
   } catch (const std::runtime_error& error) {
     outcome.is_missing = true;

@@ -10,6 +10,7 @@ namespace sdf_ccd {
 struct CacheOutcome {
   bool from_cache = false;
   bool is_missing = false;  ///< what was made is not in the cache, although it should be
+  std::string file;         ///< name in the directory; empty if it is not there
   std::string warning;      ///< a damaged file was made again, or the directory cannot be used; empty if all went well
 };
 
@@ -18,8 +19,8 @@ struct CacheOutcome {
 /// Safe against several processes: the second one waits for the first and loads its file; if that takes too
 /// long, as the first has stopped, it makes its own and leaves the cache alone. A file that is damaged, of another
 /// version, a link, somebody else's, or one that others may write to is made again; a directory that cannot be written,
-/// or that others may write to, affects only the saving. Existing files are loaded also from a read-only directory. Above `max_bytes`, the least
-/// recently used files are removed.
+/// or that others may write to, affects only the saving. Existing files are loaded also from a read-only directory.
+/// Above `max_bytes`, the least recently used files are removed.
 class FileCache {
  public:
   /// @param directory  made if it does not exist; empty: nothing is read or written.
@@ -40,7 +41,7 @@ class FileCache {
 
  private:
   struct Identity;
-  static bool load(const std::string& path, const Actions& actions, CacheOutcome& outcome);
+  bool load(const std::string& name, const Actions& actions, CacheOutcome& outcome) const;
 
   std::string directory_;
   double lock_seconds_;

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "field/source_field.h"
 #include "field/uniform/sparse_grid.h"
+#include "monitor/scene_cost.h"
 #include "print.h"
 #include "shell/sample_surface.h"
 
@@ -43,67 +43,37 @@ BodyOptions limits(const FieldOptions& field) {
 
 }  // namespace
 
-BodyCost BuildCost::expected(const Wanted& wanted) const {
-  const TriangleMesh& mesh = *wanted.mesh;
-  BodyCost cost;
-  cost.name = wanted.name;
-  cost.addField(sdf_ccd::expectedCost(SolidSource(mesh, *wanted.made), wanted.options));
-  ShellOptions shell;
-  shell.spacing = spacing_.value_or(shellSpacing(errorOf(wanted.options, mesh)));
-  if (wanted.has_shell) cost.addShell(expectedPoints(mesh, shell));
-  return cost;
-}
-
-void BuildCost::add(const Wanted& wanted) {
-  try {
-    cost_.add(expected(wanted));
-    wanted_.push_back(wanted);
-  } catch (const std::exception&) {
-    // Building it will report the error.
-  }
-}
-
-void BuildCost::add(const std::string& name, PooledMesh& mesh, const FieldOptions& options) {
-  add({name, &mesh.mesh, &mesh.made, !mesh.voxels, options});
-}
-
-void BuildCost::addField(const std::string& name, const TriangleMesh& mesh, MadeSolid& made,
-                         const FieldOptions& options) {
-  add({name, &mesh, &made, false, options});
-}
-
-std::string BuildCost::whatFits() const {
-  constexpr int kMax = 1024;
-  for (int times = 2; times <= kMax; times *= 2) {
-    SceneCost cost;
-    try {
-      for (Wanted wanted : wanted_) {
-        wanted.options = coarser(wanted.options, times);
-        cost.add(expected(wanted));
-      }
-      sdf_ccd::requireAffordable(cost, limits(wanted_.front().options));
-      return asOption(coarser(wanted_.front().options, times));
-    } catch (const std::length_error&) {
-      continue;
-    }
-  }
-  return "";
-}
-
-void BuildCost::requireAffordable() const {
-  if (wanted_.empty()) return;
-  try {
-    sdf_ccd::requireAffordable(cost_, limits(wanted_.front().options));
-  } catch (const std::length_error& refused) {
-    const std::string fits = whatFits();
-    throw std::length_error(refused.what() + (fits.empty() ? "" : "; " + fits + " would fit"));
-  }
-}
-
-void BuildCost::announce() const {
+void announceCost(const std::string& name, const TriangleMesh& mesh, const SolidSource& source,
+                  const FieldOptions& field, const ShellOf& shell) {
   constexpr double kReported = 1.0;  // [s]
-  requireAffordable();
-  if (cost_.seconds > kReported) std::cout << "expected " << summary(cost_) << std::endl;
+  constexpr int kCoarsest = 1024;    // times coarser
+  const auto affordable = [&](const FieldOptions& options) {
+    BodyCost body;
+    body.name = name;
+    body.addField(expectedCost(source, options));
+    if (shell) body.addShell(expectedPoints(mesh, shell(errorOf(options, mesh))));
+    SceneCost cost;
+    cost.add(body);
+    requireAffordable(cost, limits(field));
+    return cost;
+  };
+  const auto whatFits = [&]() -> std::string {
+    for (int times = 2; times <= kCoarsest; times *= 2) {
+      try {
+        affordable(coarser(field, times));
+        return "; " + asOption(coarser(field, times)) + " would fit";
+      } catch (const std::length_error&) {
+        continue;
+      }
+    }
+    return "";
+  };
+  try {
+    const SceneCost cost = affordable(field);
+    if (cost.seconds > kReported) std::cout << "expected " << summary(cost) << std::endl;
+  } catch (const std::length_error& refused) {
+    throw std::length_error(refused.what() + whatFits());
+  }
 }
 
 }  // namespace sdf_ccd::tools

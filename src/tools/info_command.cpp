@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "field/uniform/sparse_grid.h"
-#include "field_builder.h"
 #include "geometry/openings.h"
+#include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
 #include "resolution_options.h"

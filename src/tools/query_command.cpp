@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "field_builder.h"
+#include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
 #include "progress_bar.h"

@@ -9,6 +9,10 @@ constexpr int kDefaultCells = 64;
 
 }  // namespace
 
+bool hasResolution(const FieldOptions& options) {
+  return options.cells || options.cell_size || options.max_error;
+}
+
 void ResolutionOptions::addTo(CLI::App& command) {
   resolution_option_ = command.add_option("--resolution", cells,
                                           "Cells along the longest side of the surface's box (64 if none is given)");
@@ -26,19 +30,20 @@ void ResolutionOptions::requireNone(const std::string& reason) const {
   }
 }
 
-FieldOptions ResolutionOptions::fieldOptions(std::optional<double> default_cell) const {
+FieldOptions ResolutionOptions::given() const {
   FieldOptions options;
   options.band = band;
-  if (resolution_option_->count()) {
-    options.cells = cells;
-  } else if (cell_option_->count()) {
-    options.cell_size = cell_size;
-  } else if (max_error_option_->count()) {
-    options.max_error = max_error;
-  } else if (default_cell) {
+  if (resolution_option_->count()) options.cells = cells;
+  if (cell_option_->count()) options.cell_size = cell_size;
+  if (max_error_option_->count()) options.max_error = max_error;
+  return options;
+}
+
+FieldOptions ResolutionOptions::fieldOptions(std::optional<double> default_cell) const {
+  FieldOptions options = given();
+  if (!hasResolution(options)) {
     options.cell_size = default_cell;
-  } else {
-    options.cells = kDefaultCells;
+    if (!default_cell) options.cells = kDefaultCells;
   }
   validate(options);
   return options;

@@ -9,6 +9,9 @@
 
 namespace sdf_ccd::tools {
 
+/// Whether the options say how fine a field is.
+bool hasResolution(const FieldOptions& options);
+
 /// The options for the resolution of a field.
 struct ResolutionOptions {
   int cells = 0;
@@ -22,8 +25,10 @@ struct ResolutionOptions {
   /// @throws std::invalid_argument, naming the option and the reason, if one was given although no field is built.
   void requireNone(const std::string& reason) const;
 
-  /// The options given on the command line; without any, cells of `default_cell` [m], or 64 cells along the longest
-  /// side.
+  /// The options given on the command line: at most one resolution.
+  FieldOptions given() const;
+
+  /// The same; without a resolution, cells of `default_cell` [m], or 64 cells along the longest side.
   /// @throws std::invalid_argument if a value is invalid.
   FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
 

@@ -3,7 +3,7 @@
 namespace sdf_ccd::test {
 namespace {
 
-/// The monitor loads what `build --config` has made; check-bag starts like the monitor.
+/// The monitor loads what `build --urdf` has made; check-bag starts like the monitor.
 class PrepareRobot : public CheckBag {
  protected:
   void SetUp() override {
@@ -43,6 +43,27 @@ TEST_F(PrepareRobot, IsLoadedWhereItWasCopiedTo) {
   EXPECT_EQ(plan.find("built"), std::string::npos) << plan;
   EXPECT_EQ(plan.find("warning"), std::string::npos) << plan;
   EXPECT_EQ(filesIn("copied"), files);
+}
+
+TEST_F(PrepareRobot, ParametersAreTheMonitorsDefaultsAndOptions) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", ""},
+      {"--cell 0.006 --band 0.04 --spacing 0.003", "field: {cell_size: 0.006, band: 0.04}\nshell: {spacing: 0.003}\n"},
+      {"--max-error 0.004", "field: {max_error: 0.004}\n"},
+      {"--resolution 20", "field: {cells: 20}\n"}};
+  for (const auto& [options, parameters] : cases) {
+    fs::remove_all(path("prepared"));
+    ASSERT_EQ(run(build(options)).exit_code, kDone) << options;
+    const std::vector<std::string> files = filesIn("prepared");
+    EXPECT_EQ(files.size(), 10u) << options;
+    write("plain.yaml", "cache_directory: prepared\n" + std::string(parameters));
+    const ToolRun checked = run(check("arm.bag", "made", "--config plain.yaml"));
+    ASSERT_EQ(checked.exit_code, kDone) << checked.error;
+    const std::string plan = readText(path("made/plan.txt"));
+    EXPECT_NE(plan.find("cached"), std::string::npos) << plan;
+    EXPECT_EQ(plan.find("built"), std::string::npos) << plan;
+    EXPECT_EQ(filesIn("prepared"), files) << options;
+  }
 }
 
 TEST_F(PrepareRobot, OtherParametersMakeTheirOwn) {

@@ -113,15 +113,17 @@ class TextCacheTest : public ::testing::Test {
 };
 
 TEST_F(TextCacheTest, IsItsOwnersAlone) {
-  EXPECT_EQ(get("a.field").warning, "");
+  EXPECT_EQ(get("a.field").file, "a.field");
   struct stat status {};
   ASSERT_EQ(::stat(directory_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0700u);
   EXPECT_TRUE(get("a.field").from_cache);
+  EXPECT_EQ(get("a.field").file, "a.field");
   ASSERT_EQ(::chmod(directory_.c_str(), 0777), 0);
   const CacheOutcome outcome = get("a.field");
   EXPECT_TRUE(made_);
   EXPECT_FALSE(outcome.from_cache);
+  EXPECT_EQ(outcome.file, "");
   EXPECT_NE(outcome.warning.find("other users can write to it"), std::string::npos) << outcome.warning;
 }
 

@@ -35,7 +35,6 @@ TEST_F(Tool, BuildWritesAFieldAndAShellOfAMesh) {
   EXPECT_EQ(result.exit_code, kDone) << result.error;
   EXPECT_EQ(result.error, "");
   EXPECT_NE(result.out.find("1280 triangles"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("1 fields"), std::string::npos) << result.out;
   EXPECT_EQ(countFiles(), 5u);
   const DistanceField field = loadField(path("made/ball.field").string());
   EXPECT_NEAR(field.sample(Vector3d(0.5, 0, 0)).value, 0.0, field.errorBound() + 0.01);
@@ -203,56 +202,75 @@ TEST_F(Tool, BadMeshesAndOptionsAreRefused) {
   expectRefused("build --mesh ball.off --srdf a.srdf --out made", "--srdf needs --urdf");
   expectRefused("build --urdf ball.off --out made", "ball.off: the URDF cannot be parsed");
   expectRefused("build --urdf . --out made", "is a directory");
+  write("arm.urdf", "<robot name='arm'><link name='a'/></robot>");
+  expectRefused("build --urdf arm.urdf --out made --resolution 1", "the monitor needs two cells or more");
   expectRefused("build --out made", "required");
   expectRefused("", "subcommand");
   expectRefused("fly", "");
 }
 
-TEST_F(Tool, RobotIsBuiltLinkByLink) {
-  const std::string mesh = "<collision><geometry><mesh filename='ball.off'/></geometry></collision>";
-  write("arm.urdf",
-        "<robot name='arm'><link name='a'>" + mesh + mesh +
-            "</link><link name='b'><collision><geometry>"
-            "<box size='1 1 1'/></geometry></collision></link><link name='c'><collision><geometry><mesh "
-            "filename='package://nowhere/x.stl'/></geometry></collision></link><joint name='ab' "
-            "type='continuous'><parent "
-            "link='a'/><child link='b'/></joint><joint name='bc' type='continuous'><parent link='b'/><child "
-            "link='c'/></joint></robot>");
-  const ToolRun result = run("build --urdf arm.urdf --out made --resolution 12");
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("link c: package://nowhere/x.stl: no such package"), std::string::npos) << result.error;
-  EXPECT_EQ(result.error.find('\n'), result.error.size() - 1);
-  EXPECT_NE(result.out.find("3 links"), std::string::npos) << result.out;
-  for (const char* name : {"a.field", "a.shell", "a_2.field", "a_2.shell"})
-    EXPECT_TRUE(fs::exists(path("made") / name));
-  EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 4);
+/// Two links with something between them, so that they are a pair; `c` is added to them.
+std::string twoLinks(const std::string& a, const std::string& b, const std::string& c = "") {
+  const auto link = [](const std::string& name, const std::string& shapes) {
+    return "<link name='" + name + "'>" + shapes + "</link>";
+  };
+  const auto joint = [](const std::string& parent, const std::string& child) {
+    return "<joint name='to_" + child + "' type='continuous'><origin xyz='0.6 0 0'/><parent link='" + parent +
+           "'/><child link='" + child + "'/></joint>";
+  };
+  return "<robot name='arm'>" + link("a", a) + link("between", "") + link("b", b) + joint("a", "between") +
+         joint("between", "b") + c + "</robot>";
 }
 
-TEST_F(Tool, NoLinkOverwritesAnothersFiles) {
-  write("box.off", test::off(test::icosphere(0.25, 1)));
-  const auto link = [](const std::string& name, int balls, int boxes) {
-    std::string text = "<link name='" + name + "'>";
-    for (int i = 0; i < balls + boxes; ++i) {
-      text += std::string("<collision><geometry><mesh filename='") + (i < balls ? "ball" : "box") +
-              ".off'/></geometry></collision>";
-    }
-    return text + "</link>";
-  };
-  const auto joint = [](const std::string& child) {
-    return "<joint name='to_" + child + "' type='floating'><parent link='a'/><child link='" + child + "'/></joint>";
-  };
-  write("twins.urdf", "<robot name='twins'>" + link("a", 3, 0) + link("a_2", 0, 1) + link("a/b", 1, 0) +
-                          link("a_b", 0, 1) + joint("a_2") + joint("a/b") + joint("a_b") + "</robot>");
-  const ToolRun result = run("build --urdf twins.urdf --out made --resolution 8");
-  ASSERT_EQ(result.exit_code, kDone) << result.error;
-  EXPECT_EQ(std::distance(fs::directory_iterator(path("made")), fs::directory_iterator()), 2 * 6);
-  EXPECT_NE(result.out.find("6 fields"), std::string::npos) << result.out;
-  const auto radius = [&](const std::string& name) {
-    return loadField(path("made/" + name + ".field").string()).surfaceBox().sizes().x() / 2.0;
-  };
-  for (const char* name : {"a", "a_3", "a_4"}) EXPECT_NEAR(radius(name), 0.5, 0.02) << name;
-  EXPECT_NEAR(radius("a_2"), 0.25, 0.02);
-  EXPECT_GT(std::abs(radius("a_b") - radius("a_b_2")), 0.2);
+const char* const kBall = "<collision><geometry><mesh filename='ball.off'/></geometry></collision>";
+const char* const kBox = "<collision><geometry><box size='1 1 1'/></geometry></collision>";
+
+TEST_F(Tool, RobotIsBuiltInFilesOfACache) {
+  write("arm.urdf", twoLinks(std::string(kBall) + kBall, kBox));
+  const std::string build = "build --urdf arm.urdf --out made --resolution 12 --spacing 0.05";
+  const ToolRun first = run(build);
+  ASSERT_EQ(first.exit_code, kDone) << first.error;
+  EXPECT_NE(first.out.find(" built "), std::string::npos) << first.out;
+  const std::string loaded = "; the monitor loads them with cache_directory: " + path("made").string() +
+                             ", field: {cells: 12}, shell: {spacing: 0.05} and otherwise default parameters\n";
+  EXPECT_NE(first.out.find("\n2 files, "), std::string::npos) << first.out;  // the meshes are equal
+  EXPECT_NE(first.out.find(loaded), std::string::npos) << first.out;
+
+  write("made/other.field", "not ours");
+  const ToolRun second = run(build);
+  EXPECT_EQ(second.exit_code, kDone) << second.error;
+  EXPECT_NE(second.out.find(" cached "), std::string::npos) << second.out;
+  EXPECT_EQ(second.out.find(" built "), std::string::npos) << second.out;
+  EXPECT_EQ(second.out.substr(second.out.find("\n2 files, ")), first.out.substr(first.out.find("\n2 files, ")));
+}
+
+TEST_F(Tool, LinksWithoutAMeshAreNamed) {
+  write("arm.urdf", twoLinks(kBall, kBox,
+                             "<link name='c'><collision><geometry><mesh filename='package://nowhere/x.stl'/></geometry>"
+                             "</collision></link><joint name='to_c' type='continuous'><parent link='b'/><child "
+                             "link='c'/></joint>"));
+  const ToolRun result = run("build --urdf arm.urdf --out made");
+  EXPECT_EQ(result.exit_code, kPartlyDone);
+  EXPECT_NE(result.error.find("not checked: link c: package://nowhere/x.stl: no such package"), std::string::npos)
+      << result.error;
+  EXPECT_EQ(result.error.find('\n'), result.error.size() - 1) << result.error;
+  EXPECT_NE(result.out.find("\n2 files, "), std::string::npos) << result.out;
+}
+
+TEST_F(Tool, WhatIsLeftOutOfALinksSolidIsReported) {
+  const TriangleMesh ball = test::icosphere(0.5, 2);
+  write("ball.off", test::off(merged(ball, transformed(ball, Isometry3d(Eigen::Translation3d(0.1, 0.0, 0.0))))));
+  write("arm.urdf", twoLinks(kBall, kBox));
+  const ToolRun result = run("build --urdf arm.urdf --out made");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find(" inside the solid removed"), std::string::npos) << result.out;
+}
+
+TEST_F(Tool, PrimitivesNeedNoFiles) {
+  write("arm.urdf", twoLinks(kBox, kBox));
+  const ToolRun result = run("build --urdf arm.urdf --out made");
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("\nno files: the bodies that are checked need none\n"), std::string::npos) << result.out;
 }
 
 TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {

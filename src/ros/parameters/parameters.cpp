@@ -4,7 +4,9 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "body/given_resolution.h"
 #include "common/number_text.h"
+#include "monitor/monitor_body_options.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_parameters.h"
 
@@ -32,10 +34,7 @@ BodyOptions readScene(ParameterReader& reader) {
   ParameterReader field = reader.group("field");
   const int given = field.has("cells") + field.has("cell_size") + field.has("max_error");
   if (given > 1) field.fail("cells", "only one of cells, cell_size and max_error to be set");
-  if (given > 0) {
-    scene.cells_across = 0.0;
-    scene.field = {};
-  }
+  if (given > 0) setFieldResolution({}, scene);
   if (field.has("cells")) scene.field.cells = field.integer("cells", 0, 2);
   if (field.has("max_error")) scene.field.max_error = field.positive("max_error", 0.0);
   if (field.has("cell_size")) scene.field.cell_size = field.positive("cell_size", 0.0);
@@ -45,12 +44,7 @@ BodyOptions readScene(ParameterReader& reader) {
   field.finish();
 
   ParameterReader shell = reader.group("shell");
-  if (shell.has("spacing")) {
-    const ShellOptions given_spacing = optionsForContacts(shell.positive("spacing", 0.0)).shell;
-    scene.points_across = 0.0;
-    scene.shell.spacing = given_spacing.spacing;
-    scene.shell.vertex_spacing = given_spacing.vertex_spacing;
-  }
+  if (shell.has("spacing")) setShellSpacing(shell.positive("spacing", 0.0), scene);
   scene.shell.edge_gap = shell.notNegative("edge_gap", scene.shell.edge_gap);
   scene.shell.vertex_spacing = shell.notNegative("vertex_spacing", scene.shell.vertex_spacing);
   scene.shell.seed = shell.integer("seed", static_cast<int>(scene.shell.seed), 0);
@@ -60,7 +54,6 @@ BodyOptions readScene(ParameterReader& reader) {
 
 /// Sets the error bound of verdicts, and the part of it for motions between transforms.
 void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
-  constexpr double kOfMotion = 0.2;  // fraction for each body's motion
   double& max_error = parameters.monitor.max_error;
   max_error = reader.positive("max_error", max_error);
   if (max_error < kMinMaxError || max_error > kLargestMaxError)
@@ -68,10 +61,9 @@ void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
   if (reader.has("max_error")) parameters.scene.max_error = max_error;
   ChordOptions& chords = parameters.monitor.chords;
   double& sampling = parameters.tf.sampling.tolerance;
-  sampling = std::min(chords.tolerance, kOfMotion * max_error);
+  sampling = samplingTolerance(parameters.monitor);
   if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance", 0.0);
-  parameters.scene.motion_error = 2.0 * sampling;
-  parameters.scene.motion_margin = 2.0 * sampling + chords.tolerance;
+  setMotionErrors(sampling, chords, parameters.scene);
 }
 
 ProximityParameters readProximity(ParameterReader& reader) {

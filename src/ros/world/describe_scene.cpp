@@ -95,12 +95,6 @@ void requireNoTile(const std::string& body, const std::string& tiles_begin) {
                               " are reserved for the live map's tiles");
 }
 
-ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options) {
-  ScenePlan plan = planScene(described.scene, planOptions(options));
-  plan.expected = std::make_shared<const SceneCost>(affordableCost(described.scene, plan, options));
-  return plan;
-}
-
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
                                             const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {

@@ -40,9 +40,6 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
 /// @throws std::invalid_argument if the body's name is reserved for a live map's tiles.
 void requireNoTile(const std::string& body, const std::string& tiles_begin);
 
-/// Plan of the scene, and the expected cost of building it. @throws as affordableCost() of the core.
-ScenePlan affordablePlan(const DescribedScene& described, const BodyOptions& options);
-
 /// Builds the planned scene, with the same options, then leaves out pairs that always overlap, if that is wanted.
 /// @param progress  called with the body's name and the fraction of all bodies done.
 std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,

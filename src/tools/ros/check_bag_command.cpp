@@ -22,6 +22,7 @@
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
 #include "ros/bag/pair_coverage.h"
+#include "scene_output.h"
 #include "threads_option.h"
 
 namespace sdf_ccd::tools {
@@ -171,12 +172,15 @@ void run(const Arguments& arguments) {
   DescribedScene described = describeMonitored(parameters, arguments.config.urdf);
   if (!map_topic.empty()) described.warnings.push_back("nothing is checked against the maps on " + map_topic);
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
-  const ScenePlan plan = affordablePlan(described, parameters.scene);
+  const ScenePlan plan = affordablePlan(described.scene, parameters.scene);
   const std::string expected = "expected         " + summary(*plan.expected) + "\n";
   std::cout << expected << std::flush;
   CheckFiles files(arguments.out);
   for (const std::string& warning : described.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
-  const std::shared_ptr<const Scene> scene = buildWithBar(described, plan, parameters.scene, files.interrupt);
+  std::shared_ptr<const Scene> scene;
+  buildSceneWithBar(
+      [&](const SceneProgress& progress) { scene = buildDescribed(described, plan, parameters.scene, progress); },
+      files.interrupt);
   const std::string over = overBudget(*scene);
   std::vector<std::string> warnings = described.warnings;
   if (!over.empty()) {

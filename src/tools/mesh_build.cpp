@@ -1,0 +1,67 @@
+#include "mesh_build.h"
+
+#include <chrono>
+#include <iostream>
+#include <utility>
+
+#include "build_cost.h"
+#include "common/seconds_since.h"
+#include "field/source_field.h"
+#include "mesh_field.h"
+#include "output_file.h"
+#include "print.h"
+#include "sdf_ccd/shell/point_shell.h"
+#include "shell/sample_surface.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// @param field_error  error bound of the field [m].
+ShellOptions shellOptions(const MeshBuild& build, double field_error) {
+  constexpr double kTwoCells = 2.3;  // of a uniform grid, in its error bounds
+  ShellOptions options;
+  options.spacing = build.spacing.value_or(kTwoCells * field_error);
+  return options;
+}
+
+/// @param start  when making it began.
+template <class T>
+void report(const std::string& what, const std::string& file, const T& made, Clock::time_point start) {
+  std::cout << "  " << what << "  " << file << ": " << describe(made) << ", " << rounded(secondsSince(start), 2) << " s"
+            << std::endl;
+}
+
+}  // namespace
+
+void buildMesh(MeshBuild build, const std::string& directory) {
+  MadeSolid made;
+  made.may_be_voxels = build.voxel_size > 0.0;
+  if (made.may_be_voxels) {
+    validate(build.mesh);
+    std::cout << "  voxels " << build.voxel_size << " m, " << build.mesh.triangles.size() << " triangles, volume "
+              << signedVolume(build.mesh) << " m^3\n";
+  } else {
+    OrientedMesh oriented = orientWithWarning(build.name, build.mesh);
+    std::cout << "  mesh   " << summary(oriented.quality) << "\n";
+    build.mesh = std::move(oriented.mesh);
+  }
+  const OutputDirectory out(directory);
+  const SolidSource source(build.mesh, made);
+  const auto shell_of = [&](double field_error) { return shellOptions(build, field_error); };
+  announceCost(build.name, build.mesh, source, build.field, made.may_be_voxels ? ShellOf() : shell_of);
+
+  const auto start = Clock::now();
+  const DistanceField field = buildWithBar("field of " + build.name, source, build.field);
+  if (!made.may_be_voxels) printSolid(source.solid().report(), "  solid  ");
+  saveField(field, out.file(build.name + ".field"));
+  report("field", build.name + ".field", field, start);
+  if (made.may_be_voxels) return;
+  const auto field_end = Clock::now();
+  const PointShell shell = sampleSurface(source.solid(), shellOptions(build, field.errorBound()));
+  saveShell(shell, out.file(build.name + ".shell"));
+  report("shell", build.name + ".shell", shell, field_end);
+}
+
+}  // namespace sdf_ccd::tools

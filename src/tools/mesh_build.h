@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd::tools {
+
+/// A mesh file, and what is to be made of it.
+struct MeshBuild {
+  std::string name;  ///< of the files, without ending
+  TriangleMesh mesh;
+  double voxel_size = 0.0;        ///< of the OctoMap whose surface the mesh is [m]; 0: a mesh of any quality
+  FieldOptions field;             ///< exactly one resolution
+  std::optional<double> spacing;  ///< of the shell's points [m]; if not set, two cells of a uniform grid
+};
+
+/// Writes NAME.field and, unless the mesh is a voxel surface, NAME.shell, and reports on both. Prints the expected cost
+/// first if building takes more than a second. The components of a mesh are oriented outward; existing files are
+/// overwritten.
+/// @param directory  made if it does not exist.
+/// @throws std::length_error beyond the monitor's limits, with an option that would fit; std::runtime_error if the
+/// directory cannot be written to.
+void buildMesh(MeshBuild build, const std::string& directory);
+
+}  // namespace sdf_ccd::tools

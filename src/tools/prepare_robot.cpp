@@ -1,0 +1,70 @@
+#include "prepare_robot.h"
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "body/given_resolution.h"
+#include "monitor/monitor_body_options.h"
+#include "prepare_scene.h"
+#include "read_text.h"
+#include "robot_monitor/overlapping_pairs.h"
+#include "sdf_ccd/robot/robot_scene.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+BodyOptions optionsOf(const RobotFiles& files) {
+  BodyOptions options = defaultBodyOptions();
+  if (hasResolution(files.field)) {
+    validate(files.field);
+    if (files.field.cells == 1) throw std::invalid_argument("--resolution: the monitor needs two cells or more");
+    setFieldResolution(files.field, options);
+  }
+  options.field.band = files.field.band;
+  if (files.spacing) setShellSpacing(*files.spacing, options);
+  return options;
+}
+
+/// The parameters of a monitor with these options, for the user: ", field: {cell_size: 0.002} and otherwise defaults".
+std::string parametersOf(const RobotFiles& files) {
+  const auto& [cells, cell_size, max_error, band, max_bytes] = files.field;
+  static_cast<void>(max_bytes);
+  std::vector<std::string> field;
+  if (cells) field.push_back(fmt::format("cells: {}", *cells));
+  if (cell_size) field.push_back(fmt::format("cell_size: {}", *cell_size));
+  if (max_error) field.push_back(fmt::format("max_error: {}", *max_error));
+  if (band > 0.0) field.push_back(fmt::format("band: {}", band));
+  std::string text;
+  if (!field.empty()) text += fmt::format(", field: {{{}}}", fmt::join(field, ", "));
+  if (files.spacing) text += fmt::format(", shell: {{spacing: {}}}", *files.spacing);
+  return text + (text.empty() ? " and default parameters" : " and otherwise default parameters");
+}
+
+}  // namespace
+
+void prepareRobot(const RobotFiles& files, const std::string& directory) {
+  const std::string base = std::filesystem::absolute(files.urdf).parent_path().string();
+  const PackageFinder packages = packagesFromEnvironment();
+  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, base); };
+  const RobotModel robot(readText(files.urdf), files.urdf);
+  const Srdf srdf = files.srdf.empty() ? Srdf() : parseSrdf(readText(files.srdf), files.srdf);
+  std::vector<PairRule> kept;
+  for (const auto& [a, b] : srdf.enabled) kept.push_back({a, b});
+  Preparation preparation;
+  preparation.options = optionsOf(files);
+  preparation.scene = describeRobot(robot, srdf, loader, {}, preparation.warnings);
+  preparation.build = [&](const ScenePlan& plan, const BodyOptions& options, const SceneProgress& progress) {
+    Scene scene = buildScene(preparation.scene, plan, options, progress);
+    leaveOutOverlapping(robot, kept, scene);
+    return std::make_shared<const Scene>(std::move(scene));
+  };
+  preparation.parameters = parametersOf(files);
+  prepareScene(preparation, directory);
+}
+
+}  // namespace sdf_ccd::tools

@@ -1,0 +1,78 @@
+#include "prepare_scene.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <system_error>
+
+#include "body/mesh_pool.h"
+#include "commands.h"
+#include "monitor/over_budget.h"
+#include "monitor/scene_cost.h"
+#include "output_file.h"
+#include "print.h"
+#include "storage/cache_directory.h"
+#include "storage/file_cache.h"
+
+namespace sdf_ccd::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+void requireKept(const Scene& scene, const std::string& directory) {
+  for (const BodyReport& report : scene.reports)
+    if (report.is_cache_incomplete)
+      throw std::runtime_error(report.name + ": not all of it is in " + directory + "; the warnings above say why");
+}
+
+void printSolids(const Scene& scene) {
+  for (const BodyReport& report : scene.reports)
+    if (!report.solid.empty()) std::cout << report.name << ": " << report.solid << "\n";
+}
+
+void printFiles(const MeshPool& pool, const std::string& directory, const std::string& parameters) {
+  std::size_t bytes = 0;
+  for (const std::string& file : pool.files()) {
+    std::error_code gone;
+    bytes += fs::file_size(directory + "/" + file, gone);
+    if (gone)
+      throw std::runtime_error(directory + ": " + file + " was deleted; a cache keeps " +
+                               megabytes(FileCache::kMaxBytes) + " at most");
+  }
+  if (pool.files().empty()) {
+    std::cout << "no files: the bodies that are checked need none" << std::endl;
+  } else {
+    std::cout << pool.files().size() << " files, " << megabytes(bytes)
+              << "; the monitor loads them with cache_directory: " << directory << parameters << std::endl;
+  }
+}
+
+}  // namespace
+
+void prepareScene(const Preparation& preparation, const std::string& directory) {
+  BodyOptions options = preparation.options;
+  options.cache_directory = fs::absolute(directory).lexically_normal().string();
+  const OutputDirectory out(directory);  // other users may read it, unlike a private cache
+  requireOwnDirectory(options.cache_directory);
+  const ScenePlan plan = affordablePlan(preparation.scene, options);
+  std::cout << "expected         " << summary(*plan.expected) << "\n" << std::flush;
+  const Interrupt interrupt;
+  std::shared_ptr<const Scene> scene;
+  try {
+    buildSceneWithBar([&](const SceneProgress& progress) { scene = preparation.build(plan, options, progress); },
+                      interrupt);
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted: what was made is in " + directory);
+  }
+  const std::string over = overBudget(*scene);
+  std::vector<std::string> warnings = preparation.warnings;
+  if (!over.empty()) warnings.push_back(over);
+  std::cout << planText(*scene, warnings);
+  printSolids(*scene);
+  const bool is_complete = areAllMade(*scene);
+  requireKept(*scene, directory);
+  printFiles(*plan.expected->meshes, options.cache_directory, preparation.parameters);
+  if (!is_complete) throw PartlyDone();
+}
+
+}  // namespace sdf_ccd::tools
