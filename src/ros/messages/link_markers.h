@@ -20,6 +20,9 @@ class LinkMarkers {
   /// @return none if nothing has changed since the last call.
   std::optional<visualization_msgs::MarkerArray> draw(const std::vector<std::optional<Verdict>>& verdicts);
 
+  /// As last drawn.
+  const visualization_msgs::MarkerArray& markers() const { return markers_; }
+
  private:
   visualization_msgs::MarkerArray markers_;
   std::vector<int> bodies_;  // per marker: index of its body

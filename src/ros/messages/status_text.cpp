@@ -62,6 +62,8 @@ std::string uncheckedPairs(const PairStates& states, const CycleResult& result, 
 }  // namespace
 
 std::string lengthText(double length) {
+  constexpr double kTenth = 1e-4;  // less would be shown as 0.0 or 0.1 mm [m]
+  if (length > 0.0 && length < kTenth) return fmt::format("{:.1g} mm", 1e3 * length);
   return length < 1.0 ? fmt::format("{:.1f} mm", 1e3 * length) : fmt::format("{:.2f} m", length);
 }
 

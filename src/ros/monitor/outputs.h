@@ -134,6 +134,7 @@ class Outputs {
   std::shared_ptr<const CheckedWorld> drawn_;
   MarkerDrawer drawer_;
   std::unique_ptr<LinkMarkers> link_markers_;
+  ros::WallTime links_drawn_at_;
   bool has_drawn_world_ = false;
 
   MessagePool<ContactArray> contact_messages_;
