@@ -90,7 +90,7 @@ TEST(SurfacePair, InAClosedCavityItIsClear) {
 TEST(SurfacePair, LargeCylindersKeepMaxError) {
   for (const double radius : {0.5, 5.0, 25.0}) {
     const auto scene =
-        build({body("tank", Primitive(Cylinder{radius, 1.0})), body("ball", Primitive(Sphere{0.1}))}, coarse());
+        build({body("tank", Primitive(Cylinder{radius, 1.0})), body("ball", Primitive(Sphere{0.1}))}, fine(0.2));
     Monitor monitor(scene, soft());
     for (const double angle : {0.0, 0.001, 1.234}) {
       const auto beside = [&](double gap) {
