@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "body/mesh_pool.h"
 #include "commands.h"
 #include "monitor/over_budget.h"
@@ -34,10 +36,10 @@ void printFiles(const MeshPool& pool, const std::string& directory, const std::s
   std::size_t bytes = 0;
   for (const std::string& file : pool.files()) {
     std::error_code gone;
-    bytes += fs::file_size(directory + "/" + file, gone);
+    bytes += fs::file_size(fs::path(directory) / file, gone);
     if (gone)
-      throw std::runtime_error(directory + ": " + file + " was deleted; a cache keeps " +
-                               megabytes(FileCache::kMaxBytes) + " at most");
+      throw std::runtime_error(fmt::format("{}: {} was deleted; a cache keeps {} at most", directory, file,
+                                           megabytes(FileCache::kMaxBytes)));
   }
   if (pool.files().empty()) {
     std::cout << "no files: the bodies that are checked need none" << std::endl;
