@@ -8,22 +8,22 @@
 namespace sdf_ccd {
 
 struct Sphere {
-  double radius;  ///< [m], about the origin
+  double radius = 0.0;  ///< [m], about the origin
 };
 
 struct Box {
-  Vector3d half_size;  ///< [m], about the origin
+  Vector3d half_size = Vector3d::Zero();  ///< [m], about the origin
 };
 
 struct Cylinder {
-  double radius;       ///< [m]
-  double half_length;  ///< [m], along z, about the origin
+  double radius = 0.0;       ///< [m]
+  double half_length = 0.0;  ///< [m], along z, about the origin
 };
 
 /// All points with normal·p ≤ offset: the ground is {(0,0,1), 0}.
 struct HalfSpace {
-  Vector3d normal;  ///< unit, points out of the solid
-  double offset;    ///< [m]
+  Vector3d normal = Vector3d::UnitZ();  ///< points out of the solid, unit
+  double offset = 0.0;                  ///< [m]
 };
 
 /// A convex solid with an exact signed distance.
