@@ -141,8 +141,8 @@ TEST_F(MarkersTest, NothingCheckedDeletesAllAndSaysWhy) {
 TEST_F(MarkersTest, LinksHaveTheColourOfTheirVerdict) {
   LinkMarkers links(description_);
   const auto colorOf = [&] {
-    const auto drawn = links.draw(drawer_.states().ofBodies(*scene_));
-    return drawn ? drawn->markers.at(0).color : std_msgs::ColorRGBA();
+    const bool has_changed = links.draw(drawer_.states().ofBodies(*scene_));
+    return has_changed ? links.markers().markers.at(0).color : std_msgs::ColorRGBA();
   };
   const auto isColor = [](const std_msgs::ColorRGBA& color, Verdict verdict) {
     const std_msgs::ColorRGBA wanted = verdictColor(verdict, color.a);

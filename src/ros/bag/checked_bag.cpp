@@ -53,8 +53,8 @@ void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
 }
 
 void CheckedBag::addLinks(const ros::Time& now) {
-  const auto links = link_markers_.draw(drawer_.states().ofBodies(loop_.scene()));
-  if (links) writeLatched(kMonitor + "links", now, *links);
+  if (link_markers_.draw(drawer_.states().ofBodies(loop_.scene())))
+    writeLatched(kMonitor + "links", now, link_markers_.markers());
 }
 
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {

@@ -29,8 +29,11 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
       const auto isRobots = [&](std::size_t i) { return robot.urdf().joints_.count(joints->name[i]) != 0; };
       bool has_changed = false, is_finite = true;
       for (std::size_t i = 0; i < count; ++i) is_finite &= std::isfinite(joints->position[i]) || !isRobots(i);
-      not_finite += !is_finite;
-      for (std::size_t i = 0; is_finite && i < count; ++i) {
+      if (!is_finite) {
+        ++not_finite;
+        continue;
+      }
+      for (std::size_t i = 0; i < count; ++i) {
         if (!isRobots(i)) continue;
         const auto [index, is_new] = indices.try_emplace(joints->name[i], positions.size());
         if (is_new) {

@@ -31,11 +31,11 @@ LinkMarkers::LinkMarkers(const SceneDescription& scene) {
   }
 }
 
-std::optional<visualization_msgs::MarkerArray> LinkMarkers::draw(const std::vector<std::optional<Verdict>>& verdicts) {
-  if (verdicts == drawn_) return std::nullopt;
+bool LinkMarkers::draw(const std::vector<std::optional<Verdict>>& verdicts) {
+  if (verdicts == drawn_) return false;
   drawn_ = verdicts;
   for (std::size_t i = 0; i < bodies_.size(); ++i) markers_.markers[i].color = linkColor(verdicts[bodies_[i]]);
-  return markers_;
+  return true;
 }
 
 }  // namespace sdf_ccd

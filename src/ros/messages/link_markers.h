@@ -15,12 +15,12 @@ class LinkMarkers {
  public:
   explicit LinkMarkers(const SceneDescription& scene);
 
-  /// Markers of all links.
+  /// Colours the links.
   /// @param verdicts  per body (PairStates::ofBodies()).
-  /// @return none if nothing has changed since the last call.
-  std::optional<visualization_msgs::MarkerArray> draw(const std::vector<std::optional<Verdict>>& verdicts);
+  /// @return whether anything has changed since the last call.
+  bool draw(const std::vector<std::optional<Verdict>>& verdicts);
 
-  /// As last drawn.
+  /// Of all links, as last drawn.
   const visualization_msgs::MarkerArray& markers() const { return markers_; }
 
  private:

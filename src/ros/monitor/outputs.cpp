@@ -213,7 +213,7 @@ void Outputs::drawWorld(const CheckedWorld& world) {
 void Outputs::drawLinks() {
   constexpr double kAgain = 2.0;  // rviz drops markers for good whose frames it does not know yet [s]
   const ros::WallTime now = ros::WallTime::now();
-  const bool has_changed = link_markers_->draw(drawer_.states().ofBodies(drawn_->scene())).has_value();
+  const bool has_changed = link_markers_->draw(drawer_.states().ofBodies(drawn_->scene()));
   if (!has_changed && (now - links_drawn_at_).toSec() < kAgain) return;
   links_drawn_at_ = now;
   links_.publish(boost::make_shared<visualization_msgs::MarkerArray>(link_markers_->markers()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -40,6 +41,13 @@ MotionSampling samplingOf(const TfTrackerOptions& options, std::size_t max_poses
   MotionSampling sampling = options.sampling;
   sampling.max_poses = max_poses;
   return sampling;
+}
+
+/// The body of the least end that is not TIME_MAX; none if there is no such body.
+std::optional<std::size_t> earliestOf(const std::vector<ros::Time>& ends) {
+  const auto earliest = std::min_element(ends.begin(), ends.end());
+  if (earliest == ends.end() || *earliest == ros::TIME_MAX) return std::nullopt;
+  return static_cast<std::size_t>(earliest - ends.begin());
 }
 
 }  // namespace
@@ -217,16 +225,16 @@ bool TfTracker::mayRewind(double age) {
 /// Notes the time since when the first moving frame is known: that of its last transform if it had been known for
 /// longer than frames are waited for, as when the monitor joins a robot that runs.
 void TfTracker::noteFirst() {
-  const auto earliest = std::min_element(ends_.begin(), ends_.end());
-  if (!first_.isZero() || earliest == ends_.end() || *earliest == ros::TIME_MAX) return;
-  const ros::Time known = spans_[static_cast<std::size_t>(earliest - ends_.begin())].first;
-  first_ = secondsBetween(known, *earliest) <= options_.max_latency ? known : *earliest;
+  const std::optional<std::size_t> earliest = earliestOf(ends_);
+  if (!first_.isZero() || !earliest) return;
+  const ros::Time known = spans_[*earliest].first, end = ends_[*earliest];
+  first_ = secondsBetween(known, end) <= options_.max_latency ? known : end;
 }
 
 /// Begins the first cycle where all bodies are known or, after some time, all but those that are missing.
 bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missing) {
-  const auto earliest = std::min_element(ends_.begin(), ends_.end());
-  const ros::Time start = earliest == ends_.end() || *earliest == ros::TIME_MAX ? reference_ : *earliest;
+  const std::optional<std::size_t> earliest = earliestOf(ends_);
+  const ros::Time start = earliest ? ends_[*earliest] : reference_;
   for (std::size_t body = 0; body < bodies_.size() && !waited_enough; ++body) {
     if (!missing[body].empty() || spans_[body].first > start) return false;  // its transforms may still arrive
   }
