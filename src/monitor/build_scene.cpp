@@ -77,21 +77,18 @@ void shareWarnings(Scene& scene) {
 
 void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
-  const std::string what = "pair " + body_a.name + " - " + body_b.name;
+  if (body_a.is_world && body_b.is_world) return;
   const bool a_shell = body_a.shell->size() > 0, b_shell = body_b.shell->size() > 0;
   const bool checkable = body_a.failure.empty() && body_b.failure.empty();
   PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
-  if (body_a.is_world && body_b.is_world) {
-    scene.left_out.push_back({what, "both of the world", a, b});
-  } else if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
-    throw std::invalid_argument(what +
+  if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
+    throw std::invalid_argument("pair " + body_a.name + " - " + body_b.name +
                                 ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
                                 "world, say so (Body::is_world)");
-  } else {
-    pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
-    pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
-    scene.pairs.push_back(pair);
   }
+  pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
+  pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
+  scene.pairs.push_back(pair);
 }
 
 }  // namespace

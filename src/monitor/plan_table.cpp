@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "pair_bound.h"
+#include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
@@ -123,7 +124,11 @@ std::string planTable(const Scene& scene) {
   }
   for (const std::string& warning : scene.warnings) warnings += "  " + warning + "\n";
   if (!warnings.empty()) text += "notes:\n" + warnings;
-  if (!scene.left_out.empty()) text += "left out:\n" + leftOutLines(scene.left_out);
+  const std::size_t of_objects = pairsOfObjects(scene.bodies);
+  if (!scene.left_out.empty() || of_objects > 0) text += "left out:\n" + leftOutLines(scene.left_out);
+  if (of_objects > 0)
+    text +=
+        "  " + std::to_string(of_objects) + (of_objects == 1 ? " pair" : " pairs") + " of two objects of the world\n";
   return text;
 }
 

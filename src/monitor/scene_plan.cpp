@@ -74,7 +74,6 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
                        const std::map<NamePair, std::string>& allowed) {
   const auto found = allowed.find(namePair(a.name, b.name));
   if (found != allowed.end()) return found->second;
-  if (a.is_world && b.is_world) return "both of the world";
   if (a.frame == b.frame) return "in the same frame";
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return "without collision geometry";
@@ -106,15 +105,11 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     return is_large[large] && !is_large[small] && extents[large].longest_side > extents[small].diagonal;
   };
 
-  std::size_t world_pairs = 0;
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
       const BodyDescription& a = description.bodies[i];
       const BodyDescription& b = description.bodies[k];
-      if (a.is_world && b.is_world && !options.list_world_pairs) {
-        ++world_pairs;
-        continue;
-      }
+      if (a.is_world && b.is_world) continue;
       const std::string reason = whyLeftOut(a, b, allowed);
       if (!reason.empty()) {
         plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
@@ -137,9 +132,6 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
     }
   }
-
-  if (world_pairs > 0)
-    plan.left_out.push_back({"all " + std::to_string(world_pairs) + " pairs of objects", "both of the world"});
 
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];

@@ -1,5 +1,7 @@
 #include "scene_totals.h"
 
+#include <algorithm>
+
 #include "pair_bound.h"
 
 namespace sdf_ccd {
@@ -17,6 +19,12 @@ void countPairs(Scene& scene) {
     ++scene.reports[pair.body_a].pairs;
     ++scene.reports[pair.body_b].pairs;
   }
+}
+
+std::size_t pairsOfObjects(const BodyList& bodies) {
+  const std::size_t objects =
+      std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_world; });
+  return objects * (objects - std::min<std::size_t>(objects, 1)) / 2;
 }
 
 void setBounds(Scene& scene) {

@@ -193,9 +193,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
                                                        const std::function<void(const std::string&)>& progress) {
   const auto start = Clock::now();
   const std::uint64_t version = impl_->last ? impl_->last->version + 1 : 1;
-  PlanOptions plan_options = planOptions(impl_->options);
-  plan_options.list_world_pairs = false;
-  const ScenePlan plan = planScene(description, plan_options);
+  const ScenePlan plan = planScene(description, planOptions(impl_->options));
   const std::size_t count = description.bodies.size();
   std::vector<PreparedNeeds> needs = impl_->needsOf(description, plan);
   std::vector<std::string> keys;

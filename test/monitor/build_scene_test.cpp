@@ -171,6 +171,16 @@ TEST(BuildScene, ReportsProgressUpToTheEnd) {
   EXPECT_EQ(last, 1.0);
 }
 
+TEST(PlanTable, CountsPairsOfObjects) {
+  SceneDescription description;
+  for (const char* name : {"shelf", "table", "wall"}) {
+    description.bodies.push_back(body(name, Primitive(Sphere{0.1})));
+    description.bodies.back().is_world = true;
+  }
+  const std::string table = planTable(*build(description, fine(0.05)));
+  EXPECT_NE(table.find("  3 pairs of two objects of the world\n"), std::string::npos) << table;
+}
+
 TEST(PlanTable, GroupsWhatWasLeftOutByReason) {
   SceneDescription description;
   for (int i = 0; i < 12; ++i) description.bodies.push_back(body("link" + std::to_string(i), Primitive(Sphere{0.1})));

@@ -68,6 +68,19 @@ TEST(DescribeScene, ObjectsHaveNoNamesThatPatternsOrFilesMistake) {
   }
 }
 
+TEST(DescribeScene, TheNumberOfObjectsIsLimited) {
+  MonitorParameters parameters = cart();
+  const WorldObject table = parameters.world[0];
+  while (parameters.world.size() <= kMaxObjects) {
+    parameters.world.push_back(table);
+    parameters.world.back().name += std::to_string(parameters.world.size());
+  }
+  const auto describe = [&] { describeScene(parameters, [](const std::string&) { return Resource(); }); };
+  EXPECT_EQ(test::failureOf<std::invalid_argument>(describe), "world: 5001 objects; at most 5000 are allowed");
+  parameters.world.pop_back();
+  EXPECT_EQ(test::failureOf<std::invalid_argument>(describe), "");
+}
+
 TEST(DescribeScene, AResourceRootThatIsNotThereIsWarnedOf) {
   MonitorParameters parameters = cart();
   parameters.resource_roots = {"/tmp", "/tmp/no such folder"};

@@ -52,7 +52,6 @@ struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
   double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled separately
-  bool list_world_pairs = true;     ///< if not, pairs of two world objects (there are many) are left out in one line
 };
 
 /// Plans which fields, shells and tests the pairs of a scene need.
@@ -61,8 +60,8 @@ struct PlanOptions {
 /// whatever shares a body with one or with a half-space. Witnesses are tested against bodies with a shell, which then
 /// need a field.
 ///
-/// Left out are: pairs that are allowed, both of the world, in the same frame, or of a body without geometry; fields
-/// and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot
+/// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
+/// same frame, or of a body without geometry; fields and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot
 /// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) only has
 /// a field against bodies too small to contain it: their shells against its exact field detect every contact of the
 /// surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with them, contacts are

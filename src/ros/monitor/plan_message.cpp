@@ -1,7 +1,8 @@
 #include "ros/monitor/plan_message.h"
 
-#include <algorithm>
 #include <map>
+
+#include "monitor/scene_totals.h"
 
 namespace sdf_ccd {
 
@@ -34,12 +35,10 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   std::map<std::string, std::uint16_t> reasons;
   for (const LeftOut& left_out : scene.left_out) {
     if (left_out.body_a < 0) {
-      if (left_out.what.rfind("all ", 0) == 0) continue;  // pairs of objects, counted below
       plan.parts_left_out.push_back(left_out.what);
       plan.part_reasons.push_back(left_out.reason);
       continue;
     }
-    if (scene.bodies[left_out.body_a].is_world && scene.bodies[left_out.body_b].is_world) continue;
     const bool is_full = plan.reasons.size() >= kMaxReasons;
     const auto [known, is_new] = reasons.emplace(is_full ? plan.reasons.back() : left_out.reason,
                                                  static_cast<std::uint16_t>(plan.reasons.size()));
@@ -48,9 +47,7 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
     plan.left_out_b.push_back(static_cast<std::uint32_t>(left_out.body_b));
     plan.left_out_reason.push_back(known->second);
   }
-  const auto objects = static_cast<std::uint64_t>(
-      std::count_if(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.is_world; }));
-  plan.pairs_of_objects = objects * (objects - std::min<std::uint64_t>(objects, 1)) / 2;
+  plan.pairs_of_objects = pairsOfObjects(scene.bodies);
   plan.visual_only = scene.visual_only;
   plan.warnings.insert(plan.warnings.end(), scene.warnings.begin(), scene.warnings.end());
   plan.error_bound = scene.bound.total();

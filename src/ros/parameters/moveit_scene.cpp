@@ -12,7 +12,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kMaxObjects = 10'000, kMaxShapes = 10'000, kMaxCorners = 5'000'000;
+constexpr int kMaxShapes = 10'000, kMaxCorners = 5'000'000;
 
 /// Reads a text word by word and counts its lines.
 class Words {
@@ -175,7 +175,7 @@ std::vector<WorldObject> parseMoveitScene(const std::string& text) {
     const std::string mark = words.word();
     if (mark == ".") return objects;
     if (mark != "*") words.fail("expected * and an object's name, or a last line with a dot, not " + shownText(mark));
-    if (objects.size() == std::size_t(kMaxObjects)) words.fail("more than " + std::to_string(kMaxObjects) + " objects");
+    if (objects.size() == kMaxObjects) words.fail("more than " + std::to_string(kMaxObjects) + " objects");
     objects.push_back(readObject(words));
   }
 }

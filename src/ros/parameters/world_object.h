@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,9 @@ inline std::optional<Primitive> solidBelow(const Vector3d& n, double d) {
   if (!(n.norm() > 0.0)) return std::nullopt;
   return HalfSpace{n.normalized(), -d / n.norm()};
 }
+
+/// Most objects of a world; more are refused.
+constexpr std::size_t kMaxObjects = 5000;
 
 /// A static object of the world.
 struct WorldObject {

@@ -58,6 +58,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     const std::vector<WorldObject> from_file = loadWorldFile(parameters.world_file);
     world.insert(world.end(), from_file.begin(), from_file.end());
   }
+  if (world.size() > kMaxObjects) {
+    throw std::invalid_argument("world: " + std::to_string(world.size()) + " objects; at most " +
+                                std::to_string(kMaxObjects) + " are allowed");
+  }
   for (const WorldObject& object : world) {
     if (const std::string why = whyNoName(object.name); !why.empty()) throw std::invalid_argument(why);
     described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 /// Limits of one call; more is refused.
 struct RequestLimits {
   std::size_t name = 256;  ///< characters
-  std::size_t objects = 5000;
+  std::size_t objects = kMaxObjects;
   std::size_t shapes = 1000;        ///< of an object
   std::size_t triangles = 2000000;  ///< of a call
   std::size_t rules = 1000;         ///< made by ALLOW and CHECK, in total
