@@ -102,7 +102,7 @@ const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequ
     forget();
     throw;
   }
-  summarise();
+  summarise(motion.times.size() - 1);
   result.run_time = secondsSince(start);
   return result;
 }
@@ -199,8 +199,8 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
   });
 }
 
-void Monitor::Impl::summarise() {
-  CycleSummary summary(result);
+void Monitor::Impl::summarise(std::size_t end) {
+  CycleSummary summary(result, end);
   for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
   const int worst = schedule->worstSkipped();
   summary.addSkipped(schedule->skippedCount(), worst < 0 ? ErrorBound() : errorOf(worst));

@@ -25,7 +25,7 @@ struct Monitor::Impl {
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
-  void summarise();
+  void summarise(std::size_t end);
   ErrorBound errorOf(int pair) const;
   void forget();
 

@@ -1,10 +1,11 @@
 #include "summarise.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sdf_ccd {
 
-CycleSummary::CycleSummary(CycleResult& result) : result_(result) {
+CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(result), end_(end) {
   result.verdict = Verdict::kClear;
   result.error_bound = result.contact_error = 0.0;
   result.error = {};
@@ -19,7 +20,7 @@ void CycleSummary::take(const ErrorBound& error) {
 
 void CycleSummary::add(const PairResult& pair) {
   if (pair.span.empty()) {
-    ++result_.delayed;
+    if (pair.span.last < end_) ++result_.delayed;
     return;
   }
   any_ = true;
@@ -47,7 +48,7 @@ void CycleSummary::finish() {
 }
 
 void summarise(CycleResult& result) {
-  CycleSummary summary(result);
+  CycleSummary summary(result, std::numeric_limits<std::size_t>::max());
   for (const PairResult& pair : result.pairs) summary.add(pair);
   summary.finish();
 }

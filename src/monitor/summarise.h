@@ -9,7 +9,8 @@ namespace sdf_ccd {
 class CycleSummary {
  public:
   /// @param result  receives the summary; its pairs are not read.
-  explicit CycleSummary(CycleResult& result);
+  /// @param end  the motion's last waypoint: a pair whose empty span is there is done, not delayed.
+  CycleSummary(CycleResult& result, std::size_t end);
 
   void add(const PairResult& pair);
 
@@ -23,6 +24,7 @@ class CycleSummary {
   void take(const ErrorBound& error);
 
   CycleResult& result_;
+  std::size_t end_;
   bool any_ = false;
 };
 

@@ -215,6 +215,48 @@ TEST_F(TfTrackerTest, ALateFrameDelaysOnlyItsOwnPairsAndIsCaughtUpOn) {
   for (const std::string& missing : cycle_.motion.missing) EXPECT_EQ(missing, "");
 }
 
+TEST_F(TfTrackerTest, PairsThatAreBehindGoOnWhereNothingElseComes) {
+  for (int i = 0; i <= 3; ++i) {
+    send(stampedTransform("world", "hand", 10.0 + 0.1 * i, 0.1 * i));
+    if (i <= 1) send(stampedTransform("world", "foot", 10.0 + 0.1 * i, 0.0));
+    ASSERT_EQ(next(10.0 + 0.1 * i), i == 0 ? Step::kWaiting : Step::kCycle);
+  }
+  EXPECT_EQ(next(10.31), Step::kWaiting);
+  send(stampedTransform("world", "foot", 10.25, 1.5));
+  ASSERT_EQ(next(10.32), Step::kCycle);
+  EXPECT_EQ(cycle_.start, ros::Time(10.3));
+  EXPECT_EQ(cycle_.end, ros::Time(10.3));
+  EXPECT_EQ(cycle_.complete_until, ros::Time(10.25));
+  EXPECT_TRUE(cycle_.delayed_since.isZero());
+  for (const int pair : {0, 2}) {
+    EXPECT_NEAR(spanStart(pair), 10.1, 1e-9);
+    EXPECT_NEAR(spanEnd(pair), 10.25, 1e-9);
+  }
+  EXPECT_TRUE(cycle_.motion.spans[1].empty());
+  EXPECT_EQ(cycle_.motion.spans[1].last, cycle_.motion.times.size() - 1);
+  EXPECT_EQ(next(10.33), Step::kWaiting);
+  send(stampedTransform("world", "foot", 10.35, 1.5));
+  ASSERT_EQ(next(10.36), Step::kCycle);
+  EXPECT_EQ(cycle_.end, ros::Time(10.35));
+  EXPECT_NEAR(spanEnd(0), 10.3, 1e-9);
+  EXPECT_NEAR(spanEnd(2), 10.35, 1e-9);
+}
+
+TEST_F(TfTrackerTest, AFrameThatStaysAwayIsMissingAlsoWhereNothingElseComes) {
+  for (int i = 0; i <= 5; ++i) {
+    send(stampedTransform("world", "hand", 10.0 + 0.1 * i, 0.01 * i));
+    if (i <= 1) send(stampedTransform("world", "foot", 10.0 + 0.1 * i, 0.0));
+    EXPECT_EQ(next(10.0 + 0.1 * i), i == 0 ? Step::kWaiting : Step::kCycle) << i;
+  }
+  ASSERT_EQ(next(10.7), Step::kCycle);
+  EXPECT_EQ(cycle_.end, ros::Time(10.5));
+  EXPECT_EQ(cycle_.motion.missing[1], "foot is late by 0.60 s");
+  EXPECT_NEAR(spanStart(0), 10.1, 1e-9);
+  EXPECT_NEAR(spanEnd(0), 10.5, 1e-9);
+  EXPECT_EQ(cycle_.complete_until, ros::Time(10.5));
+  EXPECT_EQ(next(10.75), Step::kWaiting);
+}
+
 TEST_F(TfTrackerTest, AFrameThatStaysAwayIsMissingAfterMaxLatency) {
   for (int i = 0; i <= 5; ++i) {
     send(stampedTransform("world", "hand", 10.0 + 0.1 * i, 0.01 * i));

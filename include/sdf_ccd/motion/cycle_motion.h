@@ -35,7 +35,8 @@ struct CycleMotion {
   std::vector<double> motion_error;
 
   /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
-  /// not known yet. No spans at all: every pair over all of the motion. Poses that no span needs are not read.
+  /// not known yet; at the last waypoint, it is done. No spans at all: every pair over all of the motion. Poses that no
+  /// span needs are not read.
   std::vector<WaypointSpan> spans;
 
   /// Pose X_WB of a body at a time, by their indices.

@@ -184,7 +184,8 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
   ContactArray message;
   message.header.frame_id = loop.fixedFrame();
   message.scene_version = loop.world()->version();
-  message.header.stamp = message.cycle_start = message.complete_until = loop.cycle().end;
+  message.header.stamp = message.cycle_start = loop.cycle().end;
+  message.complete_until = loop.cycle().complete_until;
   message.verdict = ContactArray::NOT_CHECKED;
   message.reason = reason;
   setContacts(loop, message.contacts);

@@ -120,16 +120,16 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   if (is_first) noteFirst();
   if (waits_since_.isZero()) waits_since_ = now;
   const bool waited_enough = secondsBetween(waits_since_, now) > options_.max_latency;
-  if (is_first ? !begin(waited_enough, missing) : end <= last_end_)
+  if (is_first ? !begin(waited_enough, missing) : end <= last_end_ && !canCatchUp(missing))
     return waited_enough ? Step::kStalled : Step::kWaiting;
   waits_since_ = now;
   if (is_first) return Step::kWaiting;
 
-  rewind_budget_ += kRewindPerTime * ahead - rewound_;
+  rewind_budget_ += kRewindPerTime * std::max(ahead, 0.0) - rewound_;
   rewind_budget_ = std::min(rewind_budget_, kRewindPerTime * options_.max_cycle);
   rewound_ = 0.0;
   cycle.start = last_end_;
-  cycle.end = last_end_ = end;
+  cycle.end = last_end_ = std::max(last_end_, end);
   cycle.late.swap(late_);
   late_.clear();
   advancePairs(cycle);
@@ -268,6 +268,18 @@ ros::Time TfTracker::latestEnd(const std::vector<std::string>& missing) const {
   return latest.isZero() ? reference_ : latest;
 }
 
+/// Whether more is known of a pair that is behind the last cycle's end, or that it is too late.
+bool TfTracker::canCatchUp(const std::vector<std::string>& missing) const {
+  if (are_together_) return false;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const int a = pairs_[p].body_a, b = pairs_[p].body_b;
+    const bool is_known = missing[a].empty() && missing[b].empty();
+    const ros::Time until = is_known ? std::min({ends_[a], ends_[b], last_end_}) : last_end_;
+    if (times_[p].until < until) return true;
+  }
+  return false;
+}
+
 /// Usually all pairs advance together, and their times need not be stored one by one.
 bool TfTracker::canAdvanceTogether(const TrackedCycle& cycle) const {
   if (!are_together_) return false;
@@ -305,6 +317,7 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
     are_together &= is_known && from == cycle.start && until == cycle.end;
     cycle.complete_until = std::min(cycle.complete_until, until);
     if (from == until) {
+      if (until == cycle.end) continue;  // done, while others catch up
       cycle.delayed_since = cycle.delayed_since.isZero() ? from : std::min(cycle.delayed_since, from);
       continue;
     }

@@ -38,7 +38,7 @@ struct TrackedCycle {
   ros::Time start;
   ros::Time end;
   ros::Time complete_until;  ///< all pairs are done up to here; `end` if none is delayed
-  ros::Time delayed_since;   ///< earliest time from which a pair waits for its transforms; 0 if none is delayed
+  ros::Time delayed_since;   ///< earliest time from which a pair without new transforms waits; 0 if there is none
   ros::Time origin;          ///< time 0 of the motion: `start`, or earlier if delayed pairs catch up
   CycleMotion motion;        ///< in the fixed frame
   /// [s] from origin: the recorded transforms between which a body moves, and the ends of all pairs' spans.
@@ -52,7 +52,8 @@ struct TrackedCycle {
 };
 
 /// Divides recorded transforms into cycles (design §5). Every pair is checked from where its last check ended to where
-/// both its frames are known; a cycle ends where the latest pair does. The first cycle waits until all frames are
+/// both its frames are known; a cycle ends where the latest pair does. If only pairs that are behind can go on, they do
+/// so in a cycle that starts at its end. The first cycle waits until all frames are
 /// known, or max_latency is over, but includes what was known of each pair while it waited. So a frame that lags behind
 /// delays only its own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked.
 /// The lag is measured against the newest transform of all frames or, unless time is simulated, against the wall clock.
@@ -108,6 +109,7 @@ class TfTracker {
   void noteFirst();
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time latestEnd(const std::vector<std::string>& missing) const;
+  bool canCatchUp(const std::vector<std::string>& missing) const;
   bool canAdvanceTogether(const TrackedCycle& cycle) const;
   void storePairTimes();
   void advancePairs(TrackedCycle& cycle);

@@ -123,10 +123,9 @@ std::string CycleStatistics::timeLine(const ros::Time& begin) const {
   const CycleRecord& last = cycles_.back();
   std::string text =
       "time             from " + secondsAfter(begin, cycles_.front().start) + " to " + secondsAfter(begin, last.end);
-  if (last.delayed > 0) {
-    text += ", " + std::to_string(last.delayed) + " pairs to " + secondsAfter(begin, last.complete_until) +
-            " or more, where their transforms end";
-  }
+  if (last.complete_until < last.end)
+    text +=
+        ", of some pairs only to " + secondsAfter(begin, last.complete_until) + " or more, where their transforms end";
   return text + "\n";
 }
 
