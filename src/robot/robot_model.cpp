@@ -117,7 +117,15 @@ bool RobotModel::rigidlyJoined(const std::string& link_a, const std::string& lin
 
 bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) const {
   const std::vector<int> types = jointsBetween(link_a, link_b);
-  return types.size() == 1 && types[0] != urdf::Joint::FLOATING && types[0] != urdf::Joint::PLANAR;
+  if (types.size() != 1 || types[0] == urdf::Joint::FLOATING || types[0] == urdf::Joint::PLANAR) return false;
+  const int a = indexOf(link_a), b = indexOf(link_b);
+  const std::vector<std::pair<int, bool>> steps = path(a, b);
+  const auto mayLieBetween = [&](int link) {
+    return link == a || link == b || urdf_->getLink(links_[static_cast<std::size_t>(link)])->collision_array.empty();
+  };
+  return std::all_of(steps.begin(), steps.end(), [&](const std::pair<int, bool>& step) {
+    return mayLieBetween(step.first) && mayLieBetween(parent_[static_cast<std::size_t>(step.first)]);
+  });
 }
 
 RobotModel::Reach RobotModel::reach(const std::string& link_a, const std::string& link_b) const {

@@ -107,6 +107,22 @@ TEST(RobotModel, TellsRigidAndAdjacentLinks) {
   EXPECT_THROW(robot.adjacent("wheel", "leg"), std::invalid_argument);
 }
 
+TEST(RobotModel, NothingIsAdjacentAcrossALinkWithAShape) {
+  const auto robot = [](const std::string& shape) {
+    return RobotModel("<robot name='scara'><link name='post'/><link name='world'/><link name='base'>" + shape +
+                      "</link><link name='arm'/>"
+                      "<joint name='a' type='fixed'><parent link='world'/><child link='base'/></joint>"
+                      "<joint name='b' type='fixed'><parent link='world'/><child link='post'/></joint>"
+                      "<joint name='c' type='continuous'><parent link='base'/><child link='arm'/></joint></robot>");
+  };
+  EXPECT_TRUE(robot("").adjacent("arm", "post"));
+  const RobotModel with_shape = robot("<collision><geometry><sphere radius='0.1'/></geometry></collision>");
+  EXPECT_FALSE(with_shape.adjacent("arm", "post"));
+  EXPECT_FALSE(with_shape.adjacent("post", "arm"));
+  EXPECT_TRUE(with_shape.adjacent("arm", "base"));
+  EXPECT_FALSE(with_shape.adjacent("world", "arm"));
+}
+
 TEST(RobotModel, NothingIsAdjacentAcrossAJointThatHoldsNothing) {
   for (const std::string type : {"floating", "planar"}) {
     const RobotModel robot(

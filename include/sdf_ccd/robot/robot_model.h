@@ -63,8 +63,8 @@ class RobotModel {
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
 
-  /// True if exactly one movable joint, and otherwise only fixed joints, lie between the links. Links on the two sides
-  /// of a planar or floating joint are not adjacent.
+  /// True if exactly one movable joint, and otherwise only fixed joints and links without collision shape, lie between
+  /// the links. Links on the two sides of a planar or floating joint are not adjacent.
   bool adjacent(const std::string& link_a, const std::string& link_b) const;
 
   /// Lower and upper bound of the distance between two links' origins over all joint positions [m].
