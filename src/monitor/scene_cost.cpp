@@ -64,7 +64,7 @@ class CostEstimate {
       const bool is_new = seen_.insert(&mesh).second;
       if (needs.field && is_new) addField(mesh, cost);
       const ShellUse use{body.geometry.size() > 1, needs.decides};
-      if (needs.shell) cost.addShell(expectedPoints(mesh.mesh, pool_->shellOptions(mesh, use)));
+      if (needs.shell) cost.addShell(affordable(expectedPoints(mesh.mesh, pool_->shellOptions(mesh, use))));
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
     return cost;
@@ -108,7 +108,14 @@ class CostEstimate {
     shell.spacing = needs.edges_only ? size : coarser * shell.spacing;
     shell.edge_gap *= coarser;
     const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest), shell);
-    cost.addShell(points * std::pow(coarser, has_rims ? 1.5 : 2.0));
+    cost.addShell(affordable(points * std::pow(coarser, has_rims ? 1.5 : 2.0)));
+  }
+
+  /// Where fineness follows the bodies' sizes, a shell that would have too many points is made with a coarser one.
+  double affordable(double points) const {
+    const auto most = static_cast<double>(options_.shell.max_points);
+    while (options_.points_across > 0.0 && most > 0.0 && points > most) points *= 0.25;
+    return points;
   }
 
   const BodyOptions& options_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 
@@ -34,6 +36,32 @@ void requireAtMost(std::size_t limit, std::size_t given, const std::string& what
   if (given <= limit) return;
   refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(limit) + " are allowed in one request");
 }
+
+/// Notes on several motions: each text once, with the first motion that it is about. Threads may add at once.
+class MotionNotes {
+ public:
+  void add(std::size_t motion, const std::string& note) {
+    if (note.empty()) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto [known, is_new] = first_.emplace(note, motion);
+    if (!is_new) known->second = std::min(known->second, motion);
+  }
+
+  std::string text() const {
+    constexpr std::size_t kMost = 5;
+    std::string text;
+    std::size_t listed = 0;
+    for (const auto& [note, motion] : first_) {
+      if (listed++ == kMost) return text + "; ...";
+      text += (text.empty() ? "motion " : "; motion ") + std::to_string(motion) + ": " + note;
+    }
+    return text;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::size_t> first_;
+};
 
 }  // namespace
 
@@ -199,6 +227,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   MotionsRequest wanted;
   wanted.first_only = !request.all;
   wanted.margin = request.margin;
+  MotionNotes notes;
   double spent = 0.0;
   for (std::size_t first = 0; first < count; first += kMotionsPerPiece) {
     const Piece piece(*this, spent);
@@ -215,7 +244,9 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       PlannedScene now = from_now;
       now.sampling.tolerance = tolerance;
       try {
-        return toPlannedMotion(one, now);
+        PlannedMotion planned = toPlannedMotion(one, now);
+        notes.add(first + i, planned.notes);
+        return planned;
       } catch (const std::invalid_argument& error) {
         refuse("motion " + std::to_string(first + i) + ": " + error.what());
       }
@@ -235,6 +266,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       response.times.push_back(ros::Duration(verdict.time));
     }
   }
+  response.message = notes.text();
 }
 
 void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {
