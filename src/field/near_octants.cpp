@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/compiler_lanes.h"
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
 
 using namespace lanes;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The maximum distance from a cube's centre to a triangle that is closest to a point in the cube: the point is at most
 /// distance + radius from the surface, and at most another radius from the centre.

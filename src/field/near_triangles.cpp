@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 NearTriangles::NearTriangles(const SurfaceIndex& surface, const SpaceCube& cube, double distance,
                              const std::int32_t* ids, std::size_t count)

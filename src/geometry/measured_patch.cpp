@@ -52,7 +52,7 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
     known[i] = 1;
   });
 
-  double area_out = 0.0, area_in = 0.0, farthest = -TriangleTree::kInfinity;
+  double area_out = 0.0, area_in = 0.0, farthest = -kInfinity;
   for (std::size_t i = 0; i < count; ++i) {
     if (!known[i]) continue;
     (numbers[i] > 0.5 ? result.facing_out : result.facing_in).push_back(patch.triangles[i]);

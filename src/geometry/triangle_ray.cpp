@@ -18,7 +18,7 @@ double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse
     if (low > enter) enter = low;
     if (high < exit) exit = high;
   }
-  return enter <= exit * (1.0 + 1e-12) ? enter : TriangleTree::kInfinity;
+  return enter <= exit * (1.0 + 1e-12) ? enter : kInfinity;
 }
 
 /// Distance along the ray to the triangle, infinity if it is missed (Möller & Trumbore 1997) by more than `slack`
@@ -26,7 +26,7 @@ double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse
 double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& direction, double slack) {
   const Vector3d ab = t.b() - t.a(), ac = t.c() - t.a(), across = direction.cross(ac);
   const double determinant = ab.dot(across);
-  if (determinant == 0.0) return TriangleTree::kInfinity;
+  if (determinant == 0.0) return kInfinity;
   const Vector3d from = p - t.a(), along = from.cross(ab);
   const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
   constexpr double kMin = -1e-12;
@@ -38,7 +38,7 @@ double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& directi
     least_w -= steep * direction.cross(ac - ab).norm();
   }
   const bool meets = u >= least_u && v >= least_v && 1.0 - u - v >= least_w;
-  return meets ? ac.dot(along) / determinant : TriangleTree::kInfinity;
+  return meets ? ac.dot(along) / determinant : kInfinity;
 }
 
 }  // namespace

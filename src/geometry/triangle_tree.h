@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "common/infinity.h"
 #include "geometry/flat_cylinder.h"
 #include "geometry/triangle.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -77,8 +77,6 @@ class TriangleTree {
   /// number is one half).
   /// @param visited  if given, the number of visited nodes and triangles is added to it.
   bool inside(const Vector3d& p, Inside rule, std::size_t* visited = nullptr) const;
-
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
  private:
   using Triangle = MeasuredTriangle;

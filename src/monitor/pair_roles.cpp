@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 PairRoles::PairRoles(const Scene& scene, const PlannedPair& pair) : body_b_(pair.body_b) {
   std::size_t wanted = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/infinity.h"
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
 
@@ -155,7 +156,6 @@ bool SurfacePair::crossAt(bool end, double motion_error, SeparationMemory& memor
 }
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr int kMaxHalvings = 60;
   const auto over = [&](std::size_t step, double start, double end) {
     return during(step, start, end, motion_error, memory);

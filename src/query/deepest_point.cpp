@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "common/infinity.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr double kNear = 2.5;  // radius of the triangles considered around a piece, relative to the piece's size
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The depth of one point [m], in the element's frame.
 struct PartDepth {

@@ -5,6 +5,7 @@
 #include <queue>
 #include <vector>
 
+#include "common/infinity.h"
 #include "field/uniform/sample_bracket.h"
 #include "field/uniform/sparse_grid.h"
 #include "query/cells/adaptive_walk.h"
@@ -13,7 +14,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxSamples = 128;  ///< upper bound of the samples on a path
 
 /// A lower bound of the distance function: a cone, or a tangent plane if the distance is convex (a primitive's).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/infinity.h"
 #include "moving_boxes.h"
 #include "sdf_ccd/common/cancel.h"
 #include "triangle_pair.h"
@@ -11,7 +12,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
 constexpr std::size_t kManyNear = 192;  // with more near pairs the interval is halved and all boxes are tested again
 constexpr int kLongSearch = 64;         // after so many tests of triangles, boxes are tested more closely

@@ -1,7 +1,8 @@
 #include "geometry_extent.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
@@ -29,7 +30,6 @@ std::vector<Vector3d> hullPoints(const GeometryDescription& element) {
 }  // namespace
 
 ExtentBall extentBall(const std::vector<GeometryDescription>& geometry) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   AlignedBox3d box;
   std::vector<Vector3d> points;
   for (const GeometryDescription& element : geometry) {
@@ -45,7 +45,7 @@ ExtentBall extentBall(const std::vector<GeometryDescription>& geometry) {
 }
 
 double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p) {
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = kInfinity;
   for (const GeometryDescription& element : geometry) {
     const Vector3d p_G = element.X_BG.inverse() * p;
     const Primitive* primitive = std::get_if<Primitive>(&element.shape);

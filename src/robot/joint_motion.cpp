@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "common/infinity.h"
 #include "joint_kind.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vector3d unitAxis(const urdf::Joint& joint) {
   return toEigen(joint.axis).normalized();

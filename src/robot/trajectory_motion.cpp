@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "common/infinity.h"
 #include "common/number_text.h"
 #include "joint_kind.h"
 #include "joint_motion.h"
@@ -18,7 +18,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAngle = 1.0;                    // maximum rotation of a link between two waypoints [rad]
 constexpr std::size_t kMaxAddedWaypoints = 2000;  // about 300 revolutions
 

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::int32_t kLeafSize = 8;
+constexpr std::int32_t kPointsPerLeaf = 8;
 
 struct Ball {
   Vector3d center;
@@ -30,7 +30,7 @@ class Builder {
     for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
       cancel.check();
       const SphereTree::Node parent = tree.nodes[i];
-      if (parent.end - parent.begin <= kLeafSize) continue;
+      if (parent.end - parent.begin <= kPointsPerLeaf) continue;
       const std::int32_t middle = split(parent.begin, parent.end);
       tree.nodes[i].first_child = static_cast<std::int32_t>(tree.nodes.size());
       tree.nodes[i].child_count = 2;

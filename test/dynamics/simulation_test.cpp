@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include "common/infinity.h"
 #include "oracle/bodies.h"
 #include "oracle/failure.h"
 
@@ -11,8 +10,6 @@ namespace sdf_ccd {
 namespace {
 
 using namespace test;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RigidWorld boxOnGround(double stiffness, double damping) {
   RigidWorld world;

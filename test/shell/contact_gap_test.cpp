@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "../../src/shell/flat_pieces.h"
+#include "common/infinity.h"
 #include "geometry/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
@@ -18,7 +18,6 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kGap = 0.02;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 ShellOptions options(double gap = kGap) {
   ShellOptions options;

@@ -1,9 +1,11 @@
 #include "sample_bracket.h"
-#include "field/uniform/sparse_grid.h"
 
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "common/infinity.h"
+#include "field/uniform/sparse_grid.h"
 
 namespace sdf_ccd {
 namespace {
@@ -52,7 +54,6 @@ Vector3d inCells(const GridShape& shape, const Vector3d& p_F) {
 }  // namespace
 
 DistanceBounds sampleBracket(const SparseGrid& grid, const Vector3d& p_F, const Vector3d& gradient) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Vector3d g = inCells(grid.shape(), p_F);
   const auto reach = [&](const Sample& s) { return (s.corner - g).norm() * grid.shape().cell + s.rounding; };
   DistanceBounds bounds{-kInfinity, kInfinity};

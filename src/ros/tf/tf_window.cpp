@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/infinity.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -142,7 +143,6 @@ DerivativeSeries TfWindow::derivatives(std::size_t frame, double distance, doubl
   const int index = frames_[frame].source.step;
   if (index < 0) return {distance};
   const Step& step = boundsOf(steps_[index], start, end);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return step.is_bounded ? step.carries.of(distance) : DerivativeSeries{kInfinity, kInfinity, kInfinity, kInfinity};
 }
 
