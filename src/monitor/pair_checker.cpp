@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "crossing_intervals.h"
 #include "pair_bound.h"
 #include "pair_result.h"
 #include "pose_rounding.h"
@@ -247,18 +248,17 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// Sets a contact that no point of a shell feels. Where the surfaces cross at the span's start or end, it lasts from or
-/// up to there, so that it continues in the neighbouring cycles.
-void PairChecker::setLastingCrossing(const ContactPoint& crossing, PairResult& result) {
+/// Sets a contact that no point of a shell feels.
+void PairChecker::setHiddenCrossing(const ContactPoint& crossing, PairResult& result) {
   setCrossing(crossing, result);
-  ContactPoint& deepest = result.deepest;
-  deepest.depth_error = result.contact_error.total();
+  result.deepest.depth_error = result.contact_error.total();
   if (!surfaces_) return;
-  const RelativeMotion& motion = surfaces_->motion();
-  SeparationMemory& memory = memory_->separation;
-  if (surfaces_->crossAt(false, motion_error_, memory)) deepest.enter = motion.motion(0).t_start;
-  if (surfaces_->crossAt(true, motion_error_, memory)) deepest.exit = motion.motion(motion.steps() - 1).t_end;
-  result.intervals.front() = {deepest.enter, deepest.exit};
+  addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);
+  for (const Interval& interval : result.intervals) {
+    if (crossing.time < interval.enter || crossing.time > interval.exit) continue;
+    result.deepest.enter = interval.enter;
+    result.deepest.exit = interval.exit;
+  }
 }
 
 /// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.
@@ -304,7 +304,8 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   collector.finish(request, result);
   // A crossing between shell points is not seen by fields, so it is no deeper than their error bound.
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
-  if (crossing && result.intervals.empty()) return setLastingCrossing(*crossing, result);
+  if (crossing && result.intervals.empty()) return setHiddenCrossing(*crossing, result);
+  if (crossing && surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);
   // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
   // than the motion's error.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;

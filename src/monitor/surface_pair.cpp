@@ -149,10 +149,19 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
   return separation(field_->triangles->tree, shell_->triangles->tree, part, options, witness_, memory);
 }
 
-bool SurfacePair::crossAt(bool end, double motion_error, SeparationMemory& memory) {
-  const std::size_t step = end ? motion_.steps() - 1 : 0;
-  const double share = end ? 1.0 : 0.0;
-  return during(step, share, share, motion_error, memory).state == SeparationState::kCrossing;
+bool SurfacePair::crossAt(double time, double motion_error, SeparationMemory& memory) {
+  std::size_t first = 0;
+  for (std::size_t last = motion_.steps() - 1; first < last;) {
+    const std::size_t middle = (first + last) / 2;
+    if (time <= motion_.motion(middle).t_end) {
+      last = middle;
+    } else {
+      first = middle + 1;
+    }
+  }
+  const TwoBodyMotion step = motion_.motion(first);
+  const double share = std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0);
+  return during(first, share, share, motion_error, memory).state == SeparationState::kCrossing;
 }
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {

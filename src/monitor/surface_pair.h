@@ -57,8 +57,8 @@ class SurfacePair {
   /// @param motion_error  upper bound of the error of the bodies' relative position [m].
   Answer decide(double motion_error, SeparationMemory& memory);
 
-  /// Whether the surfaces certainly cross at the motion's start, or at its end.
-  bool crossAt(bool end, double motion_error, SeparationMemory& memory);
+  /// Whether the surfaces certainly cross at a time of the motion [s].
+  bool crossAt(double time, double motion_error, SeparationMemory& memory);
 
   /// The first touch of the surfaces [s]: they are apart before `enter` and certainly cross at `exit`, which is
   /// infinite if no crossing is certain. Unless they graze, they move by no more than the resolution between the two.

@@ -160,6 +160,53 @@ TEST(SurfacePair, ACrossingLastsAsLongAsTheSurfacesCross) {
   EXPECT_EQ(begins.intervals[0].exit, 0.1);
 }
 
+/// Edges that slide along each other, so that a shell point dips into the other rod now and then. The surfaces cross
+/// all the time.
+TEST(SurfacePair, ACrossingLastsWhetherPointsFeelItOrNot) {
+  constexpr double kHalf = 0.01, kOverlap = 1e-3, kStep = 0.0025;
+  const Primitive rod = Box{{0.2, kHalf, kHalf}};
+  const auto scene = build({body("rod", rod), body("other", rod)}, coarse());
+  Monitor monitor(scene, soft());
+  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // one edge on top, one below
+  const auto at = [&](int step) {
+    return translation({-0.0407, -0.05 + kStep * step, 2.0 * std::sqrt(2.0) * kHalf - kOverlap}) *
+           pose({0, 0, 0}, kPi / 2, {0, 0, 1}) * turned;
+  };
+  int felt = 0, hidden = 0;
+  for (int i = 0; i < 40; ++i) {
+    const PairResult pair = monitor.run(cycle(0.1, {still(turned), {at(i), at(i + 1)}}), {}).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    ++(pair.deepest.depth > 0.0 ? felt : hidden);
+    ASSERT_EQ(pair.intervals.size(), 1u) << i;
+    EXPECT_EQ(pair.intervals[0].enter, 0.0) << i;
+    EXPECT_EQ(pair.intervals[0].exit, 0.1) << i;
+  }
+  EXPECT_GT(felt, 0);
+  EXPECT_GT(hidden, 0);
+}
+
+/// Edges that cross, part and cross again within one cycle, between points of the shells.
+TEST(SurfacePair, CrossingsThatPartWithinACycleAreSeveral) {
+  constexpr double kHalf = 0.01, kOverlap = 1e-3;
+  const Primitive rod = Box{{0.2, kHalf, kHalf}};
+  const auto scene = build({body("rod", rod), body("other", rod)}, coarse());
+  Monitor monitor(scene, soft());
+  const Isometry3d turned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});
+  const auto at = [&](double overlap) {
+    return translation({-0.0407, 0.0123, 2.0 * std::sqrt(2.0) * kHalf - overlap}) *
+           pose({0, 0, 0}, kPi / 2, {0, 0, 1}) * turned;
+  };
+  const PairResult pair =
+      monitor.run(cycle(0.1, {still(turned, 3), {at(kOverlap), at(-20.0 * kOverlap), at(kOverlap)}}), {}).pairs[0];
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  ASSERT_EQ(pair.deepest.depth, 0.0) << "a shell point feels it";
+  ASSERT_EQ(pair.intervals.size(), 2u);
+  EXPECT_EQ(pair.intervals[0].enter, 0.0);
+  EXPECT_LT(pair.intervals[0].exit, 0.05);
+  EXPECT_GT(pair.intervals[1].enter, 0.05);
+  EXPECT_EQ(pair.intervals[1].exit, 0.1);
+}
+
 /// A cube tumbles over a slab and is nearest with its edge, halfway, at a known distance. The bound holds from both
 /// sides, for every max_error.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
