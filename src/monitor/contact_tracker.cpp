@@ -224,7 +224,10 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
       (isProved(pair, interval) || std::none_of(pair.intervals.begin(), pair.intervals.end(), isProvedWithin));
   if (is_contact) contact.verdict = Verdict::kContact;
   const ContactPoint* deepest = deepestWithin(pair, interval);
-  if (deepest && (!slot.has_deepest || deepest->depth > contact.deepest.depth)) {
+  const auto isDeeper = [](const ContactPoint& a, const ContactPoint& b) {
+    return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
+  };
+  if (deepest && (!slot.has_deepest || isDeeper(*deepest, contact.deepest))) {
     contact.deepest = *deepest;
     // Of a contact that goes on over a swap the bodies may be in the other order now.
     if (groups_.keys[group].first.compare(1, std::string::npos, contact.body_a) != 0)

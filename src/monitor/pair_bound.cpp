@@ -17,6 +17,14 @@ double gapToField(const PointShell& shell, const Body& field) {
   return isPlane(field) ? contactGapToPlane(shell) : shell.covering_radius;
 }
 
+/// Upper bound of the depth of points inside a body [m].
+double greatestDepth(const Body& body) {
+  if (!body.triangles) return body.ball.radius;
+  const BoxTree::Node& root = body.triangles->tree.node(body.triangles->tree.root().node);
+  const float half = std::min({root.half[0][0], root.half[1][0], root.half[2][0]});
+  return static_cast<double>(half) + static_cast<double>(root.radius[0]);
+}
+
 }  // namespace
 
 double fieldError(const Body& body) {
@@ -47,6 +55,17 @@ ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair) {
   if (!hasTriangles(scene, pair)) return pairBound(scene, pair);
   const auto deviation = [&](int body) { return scene.bodies[body].triangles->deviation; };
   return {0.0, 0.0, 0.0, deviation(pair.body_a) + deviation(pair.body_b)};
+}
+
+double hiddenDepth(const Scene& scene, const PlannedPair& pair) {
+  const auto depth = [&](int surface, int solid, bool has_shell) {
+    const PointShell& shell = *scene.bodies[surface].shell;
+    const bool covers = has_shell && shell.size() > 0 && !scene.bodies[solid].parts.empty();
+    const double deepest = greatestDepth(scene.bodies[solid]);
+    return covers ? std::min(shell.covering_radius, deepest) : deepest;
+  };
+  return std::max(depth(pair.body_a, pair.body_b, pair.a_shell_b_field && !pair.a_edges_only),
+                  depth(pair.body_b, pair.body_a, pair.b_shell_a_field && !pair.b_edges_only));
 }
 
 }  // namespace sdf_ccd

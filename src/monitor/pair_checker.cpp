@@ -251,7 +251,8 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
 /// Sets a contact that no point of a shell feels.
 void PairChecker::setHiddenCrossing(const ContactPoint& crossing, PairResult& result) {
   setCrossing(crossing, result);
-  result.deepest.depth_error = result.contact_error.total();
+  const ErrorBound& error = result.contact_error;
+  result.deepest.depth_error = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
   if (!surfaces_) return;
   addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);
   for (const Interval& interval : result.intervals) {
@@ -302,7 +303,6 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   collector.begin(motion, result, crossing.has_value());
   roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
   collector.finish(request, result);
-  // A crossing between shell points is not seen by fields, so it is no deeper than their error bound.
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
   if (crossing && result.intervals.empty()) return setHiddenCrossing(*crossing, result);
   if (crossing && surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);

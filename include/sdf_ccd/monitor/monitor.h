@@ -53,7 +53,8 @@ struct ContactPoint {
   double time = 0.0;                     ///< when it is deepest [s] from t₀
   double depth = 0.0;                    ///< [m]
   double depth_error = 0.0;              ///< of the depth [m], from the field at this point: mostly less than
-                                         ///< ErrorBound::field, but more beyond the band
+                                         ///< ErrorBound::field, but more beyond the band. If the surfaces cross without
+                                         ///< any point inside, the depth is 0, and they are no deeper than this
   Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };

@@ -160,7 +160,7 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
     if (contact.verdict != Contact::CONTACT) continue;
     // Of a contact that no point of a shell feels, no depth is known.
     const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
-    const double depth = is_felt ? contact.deepest.depth : contact.contact_error_bound;
+    const double depth = is_felt ? contact.deepest.depth : contact.deepest.depth_error;
     items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
                     shortly((contact.end - contact.begin).toSec()) + (is_felt ? " s, " : " s, at most ") +
                     shortly(1e3 * depth) + " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
