@@ -67,6 +67,15 @@ TEST(YamlParameters, WhatExpandsWithoutEndIsRefused) {
   EXPECT_EQ(errorOf(shallow + std::string(100, '[') + "\"\n"), "");
 }
 
+/// Regular expressions recurse for each byte.
+TEST(YamlParameters, NumbersOfAMillionDigitsAreRefused) {
+  const std::string digits(1'000'000, '1');
+  for (const std::string& number : {digits, "0." + digits, "0x" + digits}) {
+    EXPECT_EQ(load("rate: " + number)["rate"].getType(), XmlRpc::XmlRpcValue::TypeString);
+    EXPECT_LT(errorOf("max_points: " + number).size(), 600u);
+  }
+}
+
 TEST(YamlParameters, AValueIsNoGroup) {
   EXPECT_NE(
       errorOf("rate: 30\nrate/x: 1\n").find("parameter rate/x is inside a parameter that is a value, not a group"),

@@ -40,10 +40,11 @@ XmlRpcValue toScalar(const YAML::Node& node) {
   static const std::set<std::string> kTrue = {"yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"};
   static const std::set<std::string> kFalse = {"no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"};
   const std::string& text = node.Scalar();
-  const bool is_plain = node.Tag() != "!";  // else it is quoted
+  constexpr std::size_t kMaxNumber = 400;                              // bytes: regular expressions recurse for each
+  const bool is_text = node.Tag() == "!" || text.size() > kMaxNumber;  // the tag says that it is quoted
   int integer = 0;
   double real = 0.0;
-  if (!is_plain) return XmlRpcValue(text);
+  if (is_text) return XmlRpcValue(text);
   if (kTrue.count(text) + kFalse.count(text) > 0) return XmlRpcValue(kTrue.count(text) > 0);
   if (toInteger(text, integer)) return XmlRpcValue(integer);
   if (toReal(text, real)) return XmlRpcValue(real);
