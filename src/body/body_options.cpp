@@ -1,6 +1,5 @@
-#include "given_resolution.h"
+#include "body_options.h"
 #include "model/error_budget.h"
-#include "sdf_ccd/body/prepare_body.h"
 
 namespace sdf_ccd {
 
@@ -14,6 +13,11 @@ void setShellSpacing(double spacing, BodyOptions& options) {
   options.points_across = 0.0;
   options.shell.spacing = spacing;
   options.shell.vertex_spacing = kVertices * spacing;
+}
+
+void setMotionErrors(double sampling, double chord_tolerance, BodyOptions& options) {
+  options.motion_error = 2.0 * sampling;
+  options.motion_margin = options.motion_error + chord_tolerance;
 }
 
 BodyOptions optionsForContacts(const std::optional<double>& accuracy) {
@@ -39,8 +43,7 @@ BodyOptions optionsFor(const Accuracy& accuracy) {
   options.shell.spacing = budget.face_spacing;
   options.shell.edge_gap = budget.edge_gap;
   options.shell.max_points = kMaxShellPoints;
-  options.motion_margin = ErrorBudget::kChords * budget.chord_tolerance;
-  options.motion_error = options.motion_margin - budget.chord_tolerance;
+  setMotionErrors(budget.chord_tolerance, budget.chord_tolerance, options);
   options.max_error = accuracy.max_error;
   options.divides_max_error = true;
   options.cache_directory = accuracy.cache_directory;

@@ -51,13 +51,12 @@ ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, const ShellUse& use)
 }
 
 FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
-  FieldOptions options = fieldOptionsFor(options_, surfaceArea(mesh.mesh));
+  FieldOptions options = withResolution(fieldOptionsFor(options_, surfaceArea(mesh.mesh)));
   if (mesh.cell_size) {
     options.cells.reset();
     options.max_error.reset();
     options.cell_size = mesh.cell_size;
   }
-  validate(options);
   double cell = 0.0;
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;

@@ -130,8 +130,8 @@ DistanceField buildField(const Solid& solid, const FieldOptions& options, const 
   return buildField(ClosedSolid(std::shared_ptr<const Solid>(&solid, [](const Solid*) {})), options, progress);
 }
 
-DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress) {
-  validate(options);
+DistanceField buildField(const ClosedSolid& closed, const FieldOptions& given, const Progress& progress) {
+  const FieldOptions options = withResolution(given);
   double narrow = 0.0;
   if (options.max_error) {
     const double wanted = *options.max_error;

@@ -36,10 +36,10 @@ std::string fieldFileName(const TriangleMesh& mesh, const FieldOptions& options)
          ".field";
 }
 
-CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& options,
+CachedField cachedField(const FileCache& cache, const SolidSource& source, const FieldOptions& given,
                         const Progress& progress) {
   validate(source.mesh());
-  validate(options);
+  const FieldOptions options = withResolution(given);
   std::optional<DistanceField> field;
   std::string doubt;
   const std::string name = fieldFileName(source.mesh(), options);

@@ -19,8 +19,8 @@ double capBytes(const Openings& openings, double error) {
 
 }  // namespace
 
-FieldCost expectedCost(const ClosedSolid& closed, const FieldOptions& options) {
-  validate(options);
+FieldCost expectedCost(const ClosedSolid& closed, const FieldOptions& given) {
+  const FieldOptions options = withResolution(given);
   FieldCost cost =
       options.max_error ? expectedAdaptive(closed.solid(), options) : expectedUniform(closed.solid(), options);
   const double cells = options.cells.value_or(1);

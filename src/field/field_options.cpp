@@ -11,7 +11,7 @@ namespace sdf_ccd {
 void validate(const FieldOptions& options) {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("field options: " + what); };
   const int given = options.cells.has_value() + options.cell_size.has_value() + options.max_error.has_value();
-  if (given != 1) fail("give exactly one of cells, cell_size and max_error; " + std::to_string(given) + " are given");
+  if (given > 1) fail("give at most one of cells, cell_size and max_error; " + std::to_string(given) + " are given");
   if (options.cells && (*options.cells < 1 || *options.cells > 16384)) {
     fail("cells must be from 1 to 16384, not " + std::to_string(*options.cells));
   }
@@ -25,6 +25,12 @@ void validate(const FieldOptions& options) {
   if (!std::isfinite(options.band) || options.band < 0.0) {
     fail("band must be finite and not negative, not " + numberText(options.band));
   }
+}
+
+FieldOptions withResolution(FieldOptions options) {
+  validate(options);
+  if (!options.cells && !options.cell_size && !options.max_error) options.max_error = FieldOptions::kDefaultMaxError;
+  return options;
 }
 
 }  // namespace sdf_ccd

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kFieldPart = 0.55, kEdgePart = 0.35, kChordPart = 0.09;
+constexpr double kFieldPart = 0.55, kEdgePart = 0.35, kChordPart = 0.09, kSamplingPart = 0.2;
 
 // Points of faces give forces, not verdicts. At five times the error, faces of a robot have about as many as edges.
 constexpr double kFacesPerError = 5.0, kFinestFaces = 1e-3, kCoarsestFaces = 1e-2;
@@ -30,6 +30,10 @@ ErrorBudget divideErrorBudget(double max_error) {
   budget.chord_tolerance = kChordPart / ErrorBudget::kChords * max_error;
   budget.face_spacing = std::clamp(kFacesPerError * max_error, kFinestFaces, kCoarsestFaces);
   return budget;
+}
+
+double samplingTolerance(double max_error, double chord_tolerance) {
+  return std::min(chord_tolerance, kSamplingPart * max_error);
 }
 
 }  // namespace sdf_ccd

@@ -26,4 +26,8 @@ struct ErrorBudget {
 /// 3/g 25 %.
 ErrorBudget divideErrorBudget(double max_error);
 
+/// The tolerance of each body's sampled motion [m] where triangles decide, which are exact: a fifth of `max_error` [m],
+/// but at most the chords' tolerance [m].
+double samplingTolerance(double max_error, double chord_tolerance);
+
 }  // namespace sdf_ccd

@@ -8,18 +8,23 @@
 
 #include <fmt/format.h>
 
-#include "body/given_resolution.h"
-#include "monitor/monitor_body_options.h"
+#include "body/body_options.h"
+#include "model/error_budget.h"
 #include "prepare_scene.h"
 #include "read_text.h"
 #include "robot_monitor/overlapping_pairs.h"
+#include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd::tools {
 namespace {
 
+/// Those of a monitor with default parameters, and the given resolution.
 BodyOptions optionsOf(const RobotFiles& files) {
-  BodyOptions options = defaultBodyOptions();
+  const MonitorOptions monitor;
+  const double tolerance = monitor.chords.tolerance;
+  BodyOptions options = optionsForContacts();
+  setMotionErrors(samplingTolerance(monitor.max_error, tolerance), tolerance, options);
   if (hasResolution(files.field)) {
     validate(files.field);
     if (files.field.cells == 1) throw std::invalid_argument("--resolution: the monitor needs two cells or more");

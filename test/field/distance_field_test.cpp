@@ -301,13 +301,22 @@ TEST(DistanceField, OpenMeshHasBoundsStill) {
   }
 }
 
+TEST(DistanceField, ADefaultOneHasAnErrorOfHalfAMillimetre) {
+  const TriangleMesh mesh = test::icosphere(0.05, 3);
+  FieldOptions same;
+  same.max_error = 5.5e-4;
+  const DistanceField field = buildField(mesh, FieldOptions{}), expected = buildField(mesh, same);
+  EXPECT_LE(field.errorBound(), 5.5e-4);
+  EXPECT_EQ(field.errorBound(), expected.errorBound());
+  EXPECT_EQ(field.cells(), expected.cells());
+}
+
 TEST(DistanceField, RefusesBadInput) {
   EXPECT_THROW(buildField(TriangleMesh{}, cells(16)), std::invalid_argument);
   TriangleMesh mesh = test::boxMesh(kHalf);
   mesh.vertices[0].x() = NAN;
   EXPECT_THROW(buildField(mesh, cells(16)), std::invalid_argument);
   mesh = test::boxMesh(kHalf);
-  EXPECT_THROW(buildField(mesh, FieldOptions{}), std::invalid_argument);
   EXPECT_THROW(buildField(mesh, cells(0)), std::invalid_argument);
   FieldOptions both = cells(10);
   both.cell_size = 0.1;

@@ -21,6 +21,11 @@ TEST(ErrorBudget, SharesFillTheBudgetButForOnePercent) {
   EXPECT_EQ(divideErrorBudget(0.1).face_spacing, 1e-2);
 }
 
+TEST(ErrorBudget, ASampledMotionTakesAFifthOrWhatChordsTake) {
+  EXPECT_EQ(samplingTolerance(1e-4, 1e-4), 2e-5);
+  EXPECT_EQ(samplingTolerance(1e-2, 1e-4), 1e-4);
+}
+
 TEST(ErrorBudget, WhatCannotBeKeptIsRefused) {
   for (const double error : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e-10, 1e-300, 5e-324})
     EXPECT_THROW(divideErrorBudget(error), std::invalid_argument);

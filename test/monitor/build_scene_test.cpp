@@ -70,6 +70,17 @@ TEST(BuildScene, AMapMayHaveCellsOfItsOwn) {
   }
 }
 
+TEST(BuildScene, DefaultOptionsAreEnough) {
+  const auto scene =
+      build({body("a", meshShape(icosphere(0.05, 2))), body("b", meshShape(boxMesh({0.1, 0.1, 0.1})))}, BodyOptions());
+  for (const Body& body : scene->bodies) {
+    EXPECT_EQ(body.failure, "");
+    ASSERT_EQ(body.parts.size(), 1u);
+    EXPECT_LE(body.parts[0].field.errorBound(), optionsFor(Accuracy()).field.max_error.value());
+  }
+  EXPECT_DOUBLE_EQ(optionsFor(Accuracy()).field.max_error.value(), FieldOptions::kDefaultMaxError);
+}
+
 TEST(BuildScene, BandHoldsTheMargin) {
   const BodyOptions options = fine(0.004);
   const auto scene = build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Sphere{0.1}))}, options);

@@ -18,6 +18,8 @@ struct Accuracy {
   std::string cache_directory = {};  ///< of the cache of fields and shells; empty: no cache
 };
 
+/// How bodies are built. The default has the field of a default Accuracy, and shell points every centimetre.
+///
 /// Before anything is built, the fields' bands are widened to 1.1 × (shell.spacing, or edge_gap if there is one, + the
 /// field's own error + motion_margin), so that they contain the margin below which a pair is not CLEAR; at most to 32
 /// cells, beyond which the bounds that fields have everywhere are accurate enough.

@@ -9,8 +9,10 @@
 
 namespace sdf_ccd {
 
-/// How fine a field is. Exactly one of the first three is set.
+/// How fine a field is. At most one of the first three is set; if none is, max_error is kDefaultMaxError.
 struct FieldOptions {
+  static constexpr double kDefaultMaxError = 5.5e-4;  ///< the share of fields in Accuracy::max_error by default [m]
+
   std::optional<int> cells;         ///< cells along the longest side of the surface's box
   std::optional<double> cell_size;  ///< [m]
   /// |interpolated − true distance| in the band [m]; cells of several sizes. If the smallest ones do not suffice, the
@@ -24,6 +26,9 @@ struct FieldOptions {
 
 /// Throws std::invalid_argument, with the value, for options that no field can have.
 void validate(const FieldOptions& options);
+
+/// The options with a resolution. @throws as validate().
+FieldOptions withResolution(FieldOptions options);
 
 /// Called from one thread at a time with the share done, from 0 to 1.
 using Progress = std::function<void(double)>;

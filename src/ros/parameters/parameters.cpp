@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "body/given_resolution.h"
+#include "body/body_options.h"
 #include "common/number_text.h"
-#include "monitor/monitor_body_options.h"
+#include "model/error_budget.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_parameters.h"
 
@@ -61,9 +61,9 @@ void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
   if (reader.has("max_error")) parameters.scene.max_error = max_error;
   ChordOptions& chords = parameters.monitor.chords;
   double& sampling = parameters.tf.sampling.tolerance;
-  sampling = samplingTolerance(parameters.monitor);
+  sampling = samplingTolerance(max_error, chords.tolerance);
   if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance", 0.0);
-  setMotionErrors(sampling, chords, parameters.scene);
+  setMotionErrors(sampling, chords.tolerance, parameters.scene);
 }
 
 ProximityParameters readProximity(ParameterReader& reader) {

@@ -11,4 +11,9 @@ void setFieldResolution(const FieldOptions& field, BodyOptions& options);
 /// Sets a spacing of shell points [m] that does not follow the elements' sizes, and that of mesh vertices.
 void setShellSpacing(double spacing, BodyOptions& options);
 
+/// Sets the errors of motions that the bands of fields allow for.
+/// @param sampling         of each body's sampled motion [m].
+/// @param chord_tolerance  ChordOptions::tolerance [m].
+void setMotionErrors(double sampling, double chord_tolerance, BodyOptions& options);
+
 }  // namespace sdf_ccd
