@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+#include "common/number_text.h"
 #include "geometry/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "results.h"
@@ -39,12 +40,6 @@ struct Case {
   Outcome expected;
   std::function<Scene()> make;
 };
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
 
 /// Whether an error message names the body, the step and the reason, or an invalid option.
 bool isClear(const std::string& message) {
@@ -138,7 +133,7 @@ std::vector<Case> physicalCases() {
   std::vector<Case> cases;
   for (int e = 0; e <= 12; e += 2) {
     const double k = std::pow(10.0, e);
-    cases.push_back({"stiffness=" + number(k), kStable, [k] {
+    cases.push_back({"stiffness=" + numberText(k), kStable, [k] {
                        Scene scene = tumble();
                        scene.world.contact.stiffness_per = StiffnessPer::kPoint;
                        scene.world.contact.stiffness = k;
@@ -163,7 +158,7 @@ std::vector<Case> physicalCases() {
   }
   for (int e = -6; e <= -1; ++e) {
     const double step = std::pow(10.0, e);
-    cases.push_back({"step=" + number(step), kStable, [step] {
+    cases.push_back({"step=" + numberText(step), kStable, [step] {
                        Scene scene = tumble();
                        scene.states[1].X_OB.translation().z() = 0.06;  // lands within 0.1 s
                        scene.states[1].velocity.z() = -1.0;
@@ -174,7 +169,7 @@ std::vector<Case> physicalCases() {
   }
   for (int e = -3; e <= 4; ++e) {
     const double speed = std::pow(10.0, e);
-    cases.push_back({"speed=" + number(speed), kStable, [speed] {
+    cases.push_back({"speed=" + numberText(speed), kStable, [speed] {
                        Scene scene = tumble();
                        scene.states[1].velocity.z() = -speed;
                        scene.depth_limit = std::max(0.05, 1e-3 * speed);  // its travel in one step
@@ -189,7 +184,7 @@ std::vector<Case> physicalCases() {
                    }});
   for (int e = -5; e <= 4; ++e) {
     const double size = std::pow(10.0, e);
-    cases.push_back({"size=" + number(size), kStable, [size] {
+    cases.push_back({"size=" + numberText(size), kStable, [size] {
                        Scene scene = tumble(size);
                        const RigidBody blob = meshBody("blob", blobMesh(0.5 * size, 0.2, 200), 1000.0, 32, 0.2 * size);
                        scene.world.bodies.push_back(blob);
@@ -204,7 +199,7 @@ std::vector<Case> physicalCases() {
 std::vector<Case> placedCases() {
   std::vector<Case> cases;
   for (const double far : {0.0, 1e6}) {
-    cases.push_back({"origin=" + number(far), kStable, [far] {
+    cases.push_back({"origin=" + numberText(far), kStable, [far] {
                        const SimulationSetup setup = parseSimulation(
                            "step: 0.001\nduration: 1\ncontact: {damping: 1.0e+4}\n"
                            "shapes: {box: {type: box, size: [0.1, 0.08, 0.06]}, ground: {type: plane}}\n"
@@ -277,18 +272,18 @@ std::vector<Case> degenerateCases() {
                      return resting(body, 0.1);
                    }});
   for (const double bad : {0.0, -1.0, kInfinity, std::nan("")}) {
-    cases.push_back({"mass=" + number(bad), kStopped, [bad] {
+    cases.push_back({"mass=" + numberText(bad), kStopped, [bad] {
                        Scene scene = tumble();
                        scene.world.bodies[1].mass = bad;
                        return scene;
                      }});
-    cases.push_back({"step=" + number(bad), kStopped, [bad] {
+    cases.push_back({"step=" + numberText(bad), kStopped, [bad] {
                        Scene scene = tumble();
                        scene.step = bad;
                        return scene;
                      }});
     // With zero stiffness the body falls through the ground, as requested.
-    cases.push_back({"stiffness=" + number(bad), bad == 0.0 ? kStable : kStopped, [bad] {
+    cases.push_back({"stiffness=" + numberText(bad), bad == 0.0 ? kStable : kStopped, [bad] {
                        Scene scene = tumble();
                        scene.world.contact.stiffness = bad;
                        scene.depth_limit = 10.0;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/number_text.h"
 #include "geometry/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "oracle/persistent_contact.h"
@@ -20,12 +21,6 @@ constexpr double kHighest = 1e4;  // largest s that is tried
 constexpr int kPhases = 32;
 constexpr Scheme kSchemes[] = {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit};
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 void add(const std::string& name, const std::string& system, const std::string& metric, double value,
          const std::string& unit, int runs = 1) {
   print({"stability", name, system, metric, value, unit, runs});
@@ -34,7 +29,7 @@ void add(const std::string& name, const std::string& system, const std::string& 
 void chart(int ratios, int steps) {
   for (int i = 1; i <= ratios; ++i) {
     const double zeta = double(i) / ratios;
-    const std::string name = "zeta=" + number(zeta);
+    const std::string name = "zeta=" + numberText(zeta);
     for (const Scheme scheme : kSchemes)
       add(name, toString(scheme), "s_max", largestStable(scheme, zeta, kHighest, steps), "1");
     add(name, "closed_form_continuous", "s_max", continuousLimit(zeta), "1");
@@ -72,8 +67,8 @@ Impacts impacts(Scheme scheme, double zeta, double omega, double step) {
 void restitution(double s) {
   for (const Scheme scheme : kSchemes) {
     const Impacts found = impacts(scheme, 0.0, kOmega, s / kOmega);
-    add("impact s=" + number(s), toString(scheme), "restitution", found.mean_rebound, "1", kPhases);
-    add("impact s=" + number(s), toString(scheme), "restitution_max", found.highest_rebound, "1", kPhases);
+    add("impact s=" + numberText(s), toString(scheme), "restitution", found.mean_rebound, "1", kPhases);
+    add("impact s=" + numberText(s), toString(scheme), "restitution_max", found.highest_rebound, "1", kPhases);
   }
 }
 
@@ -90,7 +85,7 @@ double largestImpactStep(Scheme scheme, double zeta, double depth = 1e9) {
 
 /// The three statements of Figure 6 for impacts of a point.
 void pointFigure6(double zeta) {
-  const std::string row = "figure6_point zeta=" + number(zeta);
+  const std::string row = "figure6_point zeta=" + numberText(zeta);
   const double continuous = largestImpactStep(Scheme::kContinuous, zeta);
   const double discrete = largestImpactStep(Scheme::kDiscrete, zeta);
   add(row, "continuous", "s_max", continuous * kOmega, "1", kPhases);
@@ -165,7 +160,7 @@ class Drop {
 /// The three statements of Figure 6 for the drop, until a little after the first impact or until rest.
 void figure6(const std::string& name, double zeta, double duration) {
   Drop drop(zeta);
-  const std::string row = "figure6_" + name + " zeta=" + number(zeta);
+  const std::string row = "figure6_" + name + " zeta=" + numberText(zeta);
   const double continuous = drop.largestStep(Scheme::kContinuous, duration);
   const double discrete = drop.largestStep(Scheme::kDiscrete, duration);
   add(row, "continuous", "step_max", continuous, "s");

@@ -2,9 +2,9 @@
 /// results.csv and draws the studies' plots.
 
 #include <cmath>
-#include <cstdio>
 
 #include "build_systems.h"
+#include "common/number_text.h"
 #include "impact_systems.h"
 #include "precision/gnuplot.h"
 #include "precision/report.h"
@@ -22,9 +22,7 @@ using precision::StudyResult;
 
 precision::Label gridLabel(const std::string& system, const TriangleMesh& mesh, int cells) {
   const double cell = boundingBox(mesh).sizes().maxCoeff() / cells;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", 1e3 * cell);
-  return {system, text, cell};
+  return {system, lengthText(cell), cell};
 }
 
 std::vector<precision::HitSystem> hitSystems(SegmentSystems systems,

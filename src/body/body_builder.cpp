@@ -8,8 +8,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include <fmt/format.h>
-
 #include "body/body_place.h"
 #include "body/body_shell.h"
 #include "body/coarsen.h"
@@ -91,7 +89,7 @@ class BodyBuilder {
       if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
     const double seconds = secondsSince(start);
-    report_.field = exact ? "exact" : built ? fmt::format("built {:.1f} s", seconds) : cached ? "cached" : "shared";
+    report_.field = exact ? "exact" : built ? "built " + durationText(seconds) : cached ? "cached" : "shared";
     return parts;
   }
 

@@ -45,20 +45,16 @@ double machineBytes() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
 }
 
-std::string megabytes(double bytes) {
-  return numberText(std::round(1e-6 * bytes)) + " MB";
-}
-
 /// The limit that the cost certainly exceeds; empty if there is none.
 std::string exceededLimit(const SceneCost& cost, const BodyOptions& options) {
-  if (cost.bytes > machineBytes()) return "this machine has " + megabytes(machineBytes());
+  if (cost.bytes > machineBytes()) return "this machine has " + memoryText(machineBytes());
   if (!options.divides_max_error) return "";  // building will name the bodies whose settings exceed a limit
   const auto most_bytes = static_cast<double>(options.field.max_bytes);
   const auto most_points = static_cast<double>(options.shell.max_points);
   for (const BodyCost& body : cost.bodies) {
     if (body.largest_field > kSurely * most_bytes)
-      return "a field may take " + megabytes(most_bytes) + ", that of " + body.name + " would take " +
-             megabytes(body.largest_field);
+      return "a field may take " + memoryText(most_bytes) + ", that of " + body.name + " would take " +
+             memoryText(body.largest_field);
     if (body.largest_shell > kSurely * most_points)
       return "a shell may have " + numberText(most_points) + " points, that of " + body.name + " would have " +
              numberText(std::round(body.largest_shell));

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "model/error_budget.h"
 #include "pair_bound.h"
 #include "shell/contact_gap.h"
@@ -16,10 +15,6 @@ namespace {
 
 constexpr std::size_t kNamed = 3;    // at most so many bodies are named
 constexpr double kRounding = 1.001;  // factor on a share, so that one that is exactly met is not listed
-
-std::string millimetres(double metres) {
-  return fmt::format("{:.2f}", 1e3 * metres);
-}
 
 double ownGap(const Body& body) {
   return body.shell->size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
@@ -36,12 +31,12 @@ Reason gapReason(const Scene& scene, const PlannedPair& pair, double gap, double
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   if (pair.a_shell_b_field && pair.b_shell_a_field) {
     const std::string& name = (ownGap(a) > ownGap(b) ? a : b).name;
-    return {{name, "gap"}, name + " has gaps of " + millimetres(gap) + " mm between points, not " + millimetres(share)};
+    return {{name, "gap"}, name + " has gaps of " + lengthText(gap) + " between points, not " + lengthText(share)};
   }
   const std::string& name = (pair.a_shell_b_field ? b : a).name;
   return {{name, "gap"},
-          name + " is used only as a field, so the gap of " + millimetres(gap) +
-              " mm between face points applies instead of " + millimetres(share) + " mm"};
+          name + " is used only as a field, so the gap of " + lengthText(gap) +
+              " between face points applies instead of " + lengthText(share)};
 }
 
 /// Why a pair's bound exceeds the required one.
@@ -53,9 +48,9 @@ std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const E
   if (bound.gap > kRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
   if (bound.field > kRounding * field) {
     const Body& worse = fieldError(a) > fieldError(b) ? a : b;
-    found.push_back({{worse.name, "field"},
-                     "the field of " + worse.name + " has an error of " + millimetres(bound.field) + " mm, not " +
-                         millimetres(field)});
+    found.push_back(
+        {{worse.name, "field"},
+         "the field of " + worse.name + " has an error of " + lengthText(bound.field) + ", not " + lengthText(field)});
   }
   return found;
 }
@@ -77,8 +72,8 @@ std::string overBudget(const Scene& scene) {
   std::vector<std::pair<double, std::string>> worst;
   for (const auto& [key, bound] : largest) worst.emplace_back(-bound.first, bound.second);
   std::sort(worst.begin(), worst.end());
-  std::string text = "the error bound is " + millimetres(scene.bound.total()) + " mm, more than the max_error of " +
-                     millimetres(*scene.max_error) + " mm";
+  std::string text = "the error bound is " + lengthText(scene.bound.total()) + ", more than the max_error of " +
+                     lengthText(*scene.max_error);
   for (std::size_t i = 0; i < std::min(kNamed, worst.size()); ++i) text += (i == 0 ? ": " : "; ") + worst[i].second;
   if (worst.size() > kNamed) text += "; and " + std::to_string(worst.size() - kNamed) + " more";
   return text;

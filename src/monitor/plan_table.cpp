@@ -2,8 +2,7 @@
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "pair_bound.h"
 #include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -18,10 +17,6 @@ constexpr std::size_t kNamed = 4;  // at most so many examples are named per rea
 /// Number of characters, not bytes, of UTF-8.
 std::size_t width(const std::string& text) {
   return std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; });
-}
-
-std::string number(double value, int digits) {
-  return fmt::format("{:.{}f}", value, digits);
 }
 
 /// Columns as wide as their widest entry; the first `left` columns flush left, numbers flush right.
@@ -63,8 +58,8 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
 }
 
 std::string sources(const ErrorBound& bound) {
-  return " (field " + number(1e3 * bound.field, 2) + ", gap between points " + number(1e3 * bound.gap, 2) +
-         ", motion " + number(1e3 * bound.chord, 2) + ")";
+  return " (field " + fixedText(1e3 * bound.field, 2) + ", gap between points " + fixedText(1e3 * bound.gap, 2) +
+         ", motion " + fixedText(1e3 * bound.chord, 2) + ")";
 }
 
 /// "error bound of verdicts: 0.04 mm, within the max_error of 0.10 (field 0.00, gap between points 0.00, motion
@@ -72,18 +67,18 @@ std::string sources(const ErrorBound& bound) {
 std::string boundLines(const Scene& scene) {
   const ErrorBound& bound = scene.bound;
   if (scene.contact_bound.total() == 0.0) return "";
-  std::string text = "error bound of verdicts: " + number(1e3 * bound.total(), 2) + " mm";
+  std::string text = "error bound of verdicts: " + fixedText(1e3 * bound.total(), 2) + " mm";
   if (scene.max_error) {
     const bool reached = bound.total() <= *scene.max_error;
-    text +=
-        ", " + std::string(reached ? "within" : "MORE than") + " the max_error of " + number(1e3 * *scene.max_error, 2);
+    text += ", " + std::string(reached ? "within" : "MORE than") + " the max_error of " +
+            fixedText(1e3 * *scene.max_error, 2);
   }
   const auto by_triangles = std::count_if(scene.pairs.begin(), scene.pairs.end(),
                                           [&](const PlannedPair& pair) { return hasTriangles(scene, pair); });
   return text + sources(bound) + "; triangles decide about " + std::to_string(by_triangles) + " of " +
          std::to_string(scene.pairs.size()) +
-         " pairs\nerror bound of contacts' times and depths: " + number(1e3 * scene.contact_bound.total(), 2) + " mm" +
-         sources(scene.contact_bound) + "\n";
+         " pairs\nerror bound of contacts' times and depths: " + fixedText(1e3 * scene.contact_bound.total(), 2) +
+         " mm" + sources(scene.contact_bound) + "\n";
 }
 
 }  // namespace
@@ -100,13 +95,13 @@ std::string planTable(const Scene& scene) {
     points += report.shell_points;
     const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
     const std::string none = report.witnesses > 0 ? std::to_string(report.witnesses) + " witnesses" : "left out";
-    rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), number(mb, 1),
-                    number(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : none,
-                    has_shell ? number(1e3 * report.gap, 2) : "",
-                    has_bound ? number(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
+    rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), fixedText(mb, 1),
+                    fixedText(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : none,
+                    has_shell ? fixedText(1e3 * report.gap, 2) : "",
+                    has_bound ? fixedText(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
   }
-  rows.push_back({"total", "", "", std::to_string(cells), number(megabytes, 1), "", std::to_string(points), "",
-                  number(1e3 * scene.bound.total(), 2), std::to_string(scene.pairs.size())});
+  rows.push_back({"total", "", "", std::to_string(cells), fixedText(megabytes, 1), "", std::to_string(points), "",
+                  fixedText(1e3 * scene.bound.total(), 2), std::to_string(scene.pairs.size())});
   std::string text = aligned(rows, 3);
 
   text += boundLines(scene);

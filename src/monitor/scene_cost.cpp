@@ -8,12 +8,11 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include <fmt/format.h>
-
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
 #include "body/element_options.h"
 #include "body/mesh_pool.h"
+#include "common/number_text.h"
 #include "field/field_cache.h"
 #include "field/source_field.h"
 #include "shell/sample_surface.h"
@@ -125,7 +124,7 @@ class CostEstimate {
 };
 
 std::string about(double bytes, double seconds) {
-  return fmt::format("{:.3g} MB and {:.2g} s", 1e-6 * bytes, seconds);
+  return memoryText(bytes) + " and " + durationText(seconds);
 }
 
 }  // namespace

@@ -5,8 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "contact_query.h"
 #include "exact_surface.h"
 #include "motion/time_at.h"
@@ -128,7 +127,7 @@ StudyResult chordStudy(const StudyInput& input) {
   std::vector<ImpactSystem> systems;
   for (const double share : {3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
     auto system = std::make_shared<ChordSystem>(field, shell, ball, share * side);
-    const Label label{"sdf_ccd (chords)", fmt::format("{:.3g} mm", 1e3 * share * side), share * side};
+    const Label label{"sdf_ccd (chords)", lengthText(share * side), share * side};
     systems.push_back({label, [system](const Isometry3d& start, const Isometry3d& end) {
                          return (*system)({start, end});
                        }});

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "exact_surface.h"
 #include "random_inputs.h"
 #include "sdf_ccd/field/build_field.h"
@@ -191,10 +190,6 @@ class FieldStudy {
   std::vector<DistanceSystem> distances_;
 };
 
-std::string millimetres(double metres) {
-  return fmt::format("{:.3g} mm", 1e3 * metres);
-}
-
 }  // namespace
 
 StudyResult cellStudy(const StudyInput& input) {
@@ -211,7 +206,7 @@ StudyResult cellStudy(const StudyInput& input) {
     FieldOptions options;
     options.cells = cells;
     const double after = before + double(cells) * cells / all;
-    study.addField({"sdf_ccd (uniform cells)", millimetres(cell), cell}, options, before, after);
+    study.addField({"sdf_ccd (uniform cells)", lengthText(cell), cell}, options, before, after);
     before = after;
     study.addGrids(cells);
   }
@@ -234,8 +229,7 @@ StudyResult maxErrorStudy(const StudyInput& input) {
     const double after = before + 1.0 / error / all;
     FieldOptions options;
     options.max_error = error * study.side();
-    study.addField({"sdf_ccd (max_error)", millimetres(*options.max_error), *options.max_error}, options, before,
-                   after);
+    study.addField({"sdf_ccd (max_error)", lengthText(*options.max_error), *options.max_error}, options, before, after);
     before = after;
   }
   study.measure(result);

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "contact_query.h"
 #include "sdf_ccd/field/build_field.h"
 #include "studies.h"
@@ -52,7 +51,7 @@ StudyResult spacingStudy(const StudyInput& input) {
     shells.push_back(std::make_unique<TreeShell>(input.mesh, share * side));
     Measurement row;
     row.system = "sdf_ccd";
-    row.setting = fmt::format("{:.3g} mm ({})", 1e3 * share * side, shells.back()->shell.size());
+    row.setting = lengthText(share * side) + " (" + std::to_string(shells.back()->shell.size()) + ")";
     row.value = share * side;
     row.quantity = "force";
     row.unit = "of the force";

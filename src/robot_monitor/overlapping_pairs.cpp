@@ -4,8 +4,7 @@
 #include <map>
 #include <memory>
 
-#include <fmt/format.h>
-
+#include "common/number_text.h"
 #include "robot/joint_sampler.h"
 #include "sdf_ccd/common/cancel.h"
 #include "state_verdicts.h"
@@ -21,7 +20,7 @@ std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
     const PlannedPair& pair = scene.pairs[static_cast<std::size_t>(pairs[i].pair)];
     text += (i == 0 ? "" : ", ") + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
-    if (pairs[i].depth > 0.0) text += fmt::format(" ({:.1f} mm)", 1e3 * pairs[i].depth);
+    if (pairs[i].depth > 0.0) text += " (" + lengthText(pairs[i].depth) + ")";
   }
   if (pairs.size() > kNamed) text += " and " + std::to_string(pairs.size() - kNamed) + " more";
   return text;

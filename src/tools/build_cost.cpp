@@ -4,9 +4,9 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "common/number_text.h"
 #include "field/uniform/sparse_grid.h"
 #include "monitor/scene_cost.h"
-#include "print.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::tools {
@@ -27,8 +27,8 @@ FieldOptions coarser(FieldOptions options, int times) {
 
 /// The resolution as a command line option.
 std::string asOption(const FieldOptions& options) {
-  if (options.max_error) return "--max-error " + shortly(*options.max_error);
-  if (options.cell_size) return "--cell " + shortly(*options.cell_size);
+  if (options.max_error) return "--max-error " + shortText(*options.max_error);
+  if (options.cell_size) return "--cell " + shortText(*options.cell_size);
   return "--resolution " + std::to_string(*options.cells);
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "common/number_text.h"
 #include "field/uniform/sparse_grid.h"
 #include "geometry/openings.h"
 #include "mesh_field.h"
@@ -38,7 +39,7 @@ void printShell(const PointShell& shell) {
   double area = 0.0;
   for (const Vector3d& p : shell.points) box.extend(p);
   for (const double a : shell.areas) area += a;
-  std::cout << "shell: " << describe(shell) << ", area " << shortly(area) << " m^2\n";
+  std::cout << "shell: " << describe(shell) << ", area " << shortText(area) << " m^2\n";
   if (shell.size() > 0) std::cout << "within " << describe(box) << std::endl;
 }
 
@@ -50,15 +51,15 @@ void printQuality(const MeshQuality& quality) {
             << "inverted components  " << quality.inverted_components + quality.inverted_sheets << ", "
             << quality.inverted_sheets << " of them open\n"
             << "negative triangles   " << quality.negative_triangles << "\n"
-            << "duplicates left out  " << quality.duplicate_triangles << ", " << shortly(quality.duplicate_area)
+            << "duplicates left out  " << quality.duplicate_triangles << ", " << shortText(quality.duplicate_area)
             << " m^2\n"
-            << "walls left out       " << quality.hidden_triangles << ", " << shortly(quality.hidden_area) << " m^2\n"
+            << "walls left out       " << quality.hidden_triangles << ", " << shortText(quality.hidden_area) << " m^2\n"
             << "walls kept           " << quality.wall_triangles << "\n"
             << "boundary edges       " << quality.boundary_edges << "\n"
             << "non-manifold edges   " << quality.non_manifold_edges << "\n"
             << "misoriented edges    " << quality.misoriented_edges << "\n"
-            << "volume               " << shortly(quality.volume) << " m^3\n"
-            << "area                 " << shortly(quality.area) << " m^2\n"
+            << "volume               " << shortText(quality.volume) << " m^3\n"
+            << "area                 " << shortText(quality.area) << " m^2\n"
             << "box                  " << describe(quality.box) << "\n"
             << "sign trusted         " << (quality.sign_trusted ? "yes" : "no") << std::endl;
 }
@@ -83,7 +84,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
     double voxel_size = 0.0;
     const TriangleMesh mesh = loadOctomapSurface(file, voxel_size);
     std::cout << "OctoMap: voxels of " << voxel_size << " m; the surface of the occupied ones has "
-              << mesh.triangles.size() << " triangles, volume " << shortly(signedVolume(mesh)) << " m^3\nwithin "
+              << mesh.triangles.size() << " triangles, volume " << shortText(signedVolume(mesh)) << " m^3\nwithin "
               << describe(boundingBox(mesh)) << std::endl;
     if (!wants_field) return std::nullopt;
     MadeSolid made;

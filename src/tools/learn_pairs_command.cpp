@@ -7,12 +7,12 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "output_file.h"
-#include "print.h"
 #include "progress_bar.h"
 #include "read_text.h"
 #include "robot_monitor/learn_pairs.h"
 #include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
+#include "common/number_text.h"
 #include "ros/bag/recorded_positions.h"
 #endif
 
@@ -65,10 +65,10 @@ void printReport(const LearnedPairs& pairs) {
   const std::size_t states = 1 + pairs.states + pairs.recorded;
   std::cout << "states           " << pairs.states << " random (seed " << pairs.seed << "), " << pairs.recorded
             << " recorded, and the default\n"
-            << "time             " << shortly(pairs.build_seconds) << " s for fields and shells, "
-            << shortly(pairs.test_seconds)
-            << " s for the states: " << shortly(1e3 * pairs.test_seconds / double(states)) << " ms each\n"
-            << "error bound      " << shortly(1e3 * pairs.error_bound) << " mm\n"
+            << "time             " << durationText(pairs.build_seconds) << " for fields and shells, "
+            << durationText(pairs.test_seconds)
+            << " for the states: " << shortText(1e3 * pairs.test_seconds / double(states)) << " ms each\n"
+            << "error bound      " << lengthText(pairs.error_bound) << "\n"
             << "no check needed  " << pairs.disabled.size();
   for (const auto& [reason, count] : reasons) std::cout << ", " << count << " " << reason;
   std::cout << "; of Never, " << pairs.proved << " are proved\n";

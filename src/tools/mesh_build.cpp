@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "build_cost.h"
+#include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/source_field.h"
 #include "mesh_field.h"
@@ -29,7 +30,7 @@ ShellOptions shellOptions(const MeshBuild& build, double field_error) {
 /// @param start  when making it began.
 template <class T>
 void report(const std::string& what, const std::string& file, const T& made, Clock::time_point start) {
-  std::cout << "  " << what << "  " << file << ": " << describe(made) << ", " << rounded(secondsSince(start), 2) << " s"
+  std::cout << "  " << what << "  " << file << ": " << describe(made) << ", " << durationText(secondsSince(start))
             << std::endl;
 }
 

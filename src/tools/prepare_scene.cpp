@@ -9,10 +9,10 @@
 
 #include "body/mesh_pool.h"
 #include "commands.h"
+#include "common/number_text.h"
 #include "monitor/over_budget.h"
 #include "monitor/scene_cost.h"
 #include "output_file.h"
-#include "print.h"
 #include "storage/cache_directory.h"
 #include "storage/file_cache.h"
 
@@ -39,12 +39,12 @@ void printFiles(const MeshPool& pool, const std::string& directory, const std::s
     bytes += fs::file_size(fs::path(directory) / file, gone);
     if (gone)
       throw std::runtime_error(fmt::format("{}: {} was deleted; a cache keeps {} at most", directory, file,
-                                           megabytes(FileCache::kMaxBytes)));
+                                           memoryText(double(FileCache::kMaxBytes))));
   }
   if (pool.files().empty()) {
     std::cout << "no files: the bodies that are checked need none" << std::endl;
   } else {
-    std::cout << pool.files().size() << " files, " << megabytes(bytes)
+    std::cout << pool.files().size() << " files, " << memoryText(double(bytes))
               << "; the monitor loads them with cache_directory: " << directory << parameters << std::endl;
   }
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
@@ -17,25 +18,13 @@ std::string describe(const Vector3d& p) {
 
 }  // namespace
 
-std::string rounded(double value, int decimals) {
-  return fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string shortly(double value) {
-  return fmt::format("{:.3g}", value);
-}
-
-std::string megabytes(std::size_t bytes) {
-  return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
-}
-
 std::string describe(const AlignedBox3d& box) {
   return describe(box.min()) + " .. " + describe(box.max()) + " m";
 }
 
 std::string describe(const DistanceField& field) {
   const std::string accuracy = fmt::format("{}, error at most {:.3g} m within {:.3g} m of the surface",
-                                           megabytes(field.bytes()), field.errorBound(), field.band());
+                                           memoryText(double(field.bytes())), field.errorBound(), field.band());
   if (const AdaptiveGrid* adaptive = field.adaptive()) {
     const Vector3i size = adaptive->shape().size;
     return fmt::format("{}×{}×{} cells of {:.4g} m, divided into {} where needed, ", size.x(), size.y(), size.z(),

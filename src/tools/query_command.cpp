@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "common/number_text.h"
 #include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
@@ -111,8 +112,8 @@ void run(const Arguments& arguments) {
   OutputFile out(arguments.out);
   const DistanceField field = fieldOf(arguments);
   if (std::abs(arguments.query.sigma) > field.band()) {
-    throw std::invalid_argument("--sigma " + shortly(arguments.query.sigma) + " lies outside the field's band of " +
-                                shortly(field.band()) + " m");
+    throw std::invalid_argument("--sigma " + shortText(arguments.query.sigma) + " lies outside the field's band of " +
+                                shortText(field.band()) + " m");
   }
   if (field.openings()) std::cerr << "warning: openings: " << describeOpenings(field) << std::endl;
   if (arguments.impact) {

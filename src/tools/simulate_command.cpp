@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "commands.h"
+#include "common/number_text.h"
 #include "interrupt.h"
-#include "print.h"
 #include "progress_bar.h"
 #include "simulation_output.h"
 
@@ -51,14 +51,14 @@ std::string report(const Arguments& arguments, const SimulationSetup& setup, con
        << "bodies           " << setup.world.bodies.size() << ", of which " << moving << " move\n"
        << "steps            " << end.step << " (" << end.time << " s), with contact in " << summary.contact_steps
        << "\n"
-       << "energy           " << shortly(start.energy()) << " J at the start, " << shortly(end.energy())
-       << " J at the end; kinetic " << shortly(end.kinetic) << " J\n"
-       << "highest rise     " << shortly(summary.highest_rise) << " J in one step\n"
-       << "deepest point    " << shortly(summary.deepest) << " m at the end of a step\n"
-       << "reaction error   " << shortly(summary.reaction_error) << " of the contact impulses\n"
-       << "run time         " << shortly(summary.run_time) << " s, "
-       << shortly(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
-  if (summary.energy_excess > 0.0) text << "energy excess    " << shortly(summary.energy_excess) << " J\n";
+       << "energy           " << shortText(start.energy()) << " J at the start, " << shortText(end.energy())
+       << " J at the end; kinetic " << shortText(end.kinetic) << " J\n"
+       << "highest rise     " << shortText(summary.highest_rise) << " J in one step\n"
+       << "deepest point    " << shortText(summary.deepest) << " m at the end of a step\n"
+       << "reaction error   " << shortText(summary.reaction_error) << " of the contact impulses\n"
+       << "run time         " << durationText(summary.run_time) << ", "
+       << shortText(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
+  if (summary.energy_excess > 0.0) text << "energy excess    " << shortText(summary.energy_excess) << " J\n";
   return text.str();
 }
 
@@ -74,7 +74,7 @@ void run(const Arguments& arguments) {
   Simulation simulation(setup.world, setup.states, setup.scheme, setup.step);
   const double wanted = std::ceil(setup.duration / setup.step - 1e-9);
   if (!(wanted >= 1.0) || !(wanted <= 1e9)) {
-    throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + shortly(wanted));
+    throw std::runtime_error("duration / step must be 1 to 1e9 steps, got " + shortText(wanted));
   }
   const Interrupt interrupt;
   SimulationOutput out(arguments.out, setup, arguments.frames);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/number_text.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
 #include "picture.h"
@@ -50,7 +51,7 @@ struct Raster {
 Raster rasterOf(const DistanceField& field, const Slice& slice) {
   const AlignedBox3d box = field.box();
   if (!(slice.offset >= box.min()[slice.axis] && slice.offset <= box.max()[slice.axis])) {
-    throw std::invalid_argument("the slice at " + shortly(slice.offset) + " m misses the field's box, " +
+    throw std::invalid_argument("the slice at " + shortText(slice.offset) + " m misses the field's box, " +
                                 describe(box));
   }
   Raster raster;
@@ -110,7 +111,7 @@ void drawLegend(Picture& picture, const DistanceField& field, const Raster& rast
     const bool is_surface = distance == 0.0, is_edge = std::abs(distance) == band;
     const int begin = is_surface || is_edge ? 0 : kMargin;
     picture.fill({left + begin, row, kMargin + 6 - begin, is_surface ? 2 : 1}, is_edge ? kGrey : kBlack);
-    const std::string label = (distance > 0.0 ? "+" : "") + shortly(distance) + " m";
+    const std::string label = (distance > 0.0 ? "+" : "") + shortText(distance) + " m";
     picture.write(left + kMargin + 12, row + static_cast<int>(0.35 * kFontSize), label);
   }
 }
@@ -137,8 +138,8 @@ void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice)
   const int pixels = static_cast<int>(length / raster.pixel);
   picture.fill({kMargin, row - 1, pixels, 3}, kBlack);
   for (const int end : {0, pixels}) picture.fill({kMargin + end, row - 4, 1, 9}, kBlack);
-  const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortly(slice.offset) + " m";
-  picture.write(kMargin, row + 10 + static_cast<int>(kFontSize), shortly(length) + " m  " + plane);
+  const std::string plane = std::string(1, "xyz"[slice.axis]) + "=" + shortText(slice.offset) + " m";
+  picture.write(kMargin, row + 10 + static_cast<int>(kFontSize), shortText(length) + " m  " + plane);
 }
 
 }  // namespace

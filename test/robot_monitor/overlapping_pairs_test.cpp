@@ -94,7 +94,7 @@ TEST(OverlappingPairs, AreLeftOutAndTold) {
   EXPECT_EQ(cart.scene.left_out.back().reason,
             "overlap at rest and in all of 200 random states, which is no proof for others");
   ASSERT_EQ(cart.scene.warnings.size(), 2u);
-  EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30.0 mm)"), std::string::npos) << cart.scene.warnings[0];
+  EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30 mm)"), std::string::npos) << cart.scene.warnings[0];
   EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
   EXPECT_NE(planTable(cart.scene).find(cart.scene.warnings[0]), std::string::npos);
   std::size_t counted = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "common/number_text.h"
 #include "monitor/scene_case.h"
 #include "ros/messages/link_markers.h"
 #include "ros/messages/planned_markers.h"
@@ -85,8 +86,6 @@ TEST_F(MarkersTest, StatusTellsVerdictClearanceBoundAndAge) {
   EXPECT_LE(clearance, 0.3 + 1e-4);
   EXPECT_GT(clearance, 0.2);
   EXPECT_NE(status(markers).find("error bound " + lengthText(result_.error_bound)), std::string::npos);
-  EXPECT_EQ(lengthText(2.1e-6), "0.002 mm");
-  EXPECT_EQ(lengthText(1.34e-2), "13.4 mm");
   EXPECT_NE(status(markers).find("0.25 s ago"), std::string::npos) << status(markers);
   EXPECT_EQ(markers.markers.size(), 1u);
 }

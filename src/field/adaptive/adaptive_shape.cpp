@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -27,8 +29,8 @@ AdaptiveShape adaptiveShape(const AlignedBox3d& surface_box, const FieldOptions&
   const double padding = 1.01 * shape.band + 0.01 * shape.cell;
   const Vector3d cells = ((shape.surface_box.sizes().array() + 2.0 * padding) / shape.cell).ceil();
   if (cells.maxCoeff() > 1024.0) {
-    throw std::length_error("field: a band of " + std::to_string(shape.band) +
-                            " m is too wide for a maximum error of " + std::to_string(*options.max_error) + " m");
+    throw std::length_error("field: a band of " + numberText(shape.band) + " m is too wide for a maximum error of " +
+                            numberText(*options.max_error) + " m");
   }
   shape.size = cells.cast<int>();
   shape.origin = shape.surface_box.center() - 0.5 * shape.cell * cells;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/number_text.h"
 #include "motion/screw_motion.h"
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/status_text.h"

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -60,12 +62,6 @@ std::string uncheckedPairs(const PairStates& states, const CycleResult& result, 
 }
 
 }  // namespace
-
-std::string lengthText(double length) {
-  constexpr double kTenth = 1e-4;  // less would be shown as 0.0 or 0.1 mm [m]
-  if (length > 0.0 && length < kTenth) return fmt::format("{:.1g} mm", 1e3 * length);
-  return length < 1.0 ? fmt::format("{:.1f} mm", 1e3 * length) : fmt::format("{:.2f} m", length);
-}
 
 std::string wrapped(const std::string& text, std::size_t width) {
   std::istringstream words(text);

@@ -15,9 +15,6 @@ std::string statusText(const PairStates& states, const CycleResult& result, cons
 /// Status while nothing is checked, for this reason.
 std::string uncheckedText(const std::string& reason);
 
-/// A length in mm, from one metre on in m.
-std::string lengthText(double length);
-
 /// Lines of at most `width` characters, broken at blanks where there are any.
 std::string wrapped(const std::string& text, std::size_t width);
 

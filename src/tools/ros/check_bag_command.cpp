@@ -17,7 +17,6 @@
 #include "monitor/over_budget.h"
 #include "monitor_config.h"
 #include "monitor_scene.h"
-#include "print.h"
 #include "progress_bar.h"
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
@@ -207,12 +206,12 @@ void run(const Arguments& arguments) {
   const bool is_complete = areAllMade(*scene) && missing.empty();
   const double length = (motion.end() - motion.begin()).toSec();
   std::ostringstream text;
-  text << "bag              " << arguments.bag << ": " << rounded(length, 3) << " s from " << timeText(motion.begin())
+  text << "bag              " << arguments.bag << ": " << fixedText(length, 3) << " s from " << timeText(motion.begin())
        << ", followed by " << motion.source() << "\n"
        << "robot            " << described.robot->urdf().getName() << ": " << scene->bodies.size()
        << " bodies with the world's, " << scene->pairs.size() << " pairs, fixed frame " << described.fixed_frame << "\n"
-       << statistics.summary(motion.begin()) << "speed            " << rounded(length, 1) << " s in "
-       << shortly(checked.seconds) << " s: " << shortly(length / checked.seconds) << " times real time\n";
+       << statistics.summary(motion.begin()) << "speed            " << fixedText(length, 1) << " s in "
+       << durationText(checked.seconds) << ": " << shortText(length / checked.seconds) << " times real time\n";
   std::cout << text.str() << std::flush;
   files.summary.stream() << expected << text.str();
   files.plan.stream() << planText(*scene, warnings);

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "common/counted.h"
+#include "common/number_text.h"
 #include "precision/error_summary.h"
-#include "print.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::size_t kNamed = 10;  // printed items of a list
 std::string quantiles(std::vector<double> values, const std::vector<double>& shares) {
   std::string text;
   for (const double share : shares)
-    text += (text.empty() ? "" : " / ") + shortly(1e3 * precision::quantile(values, share));
+    text += (text.empty() ? "" : " / ") + shortText(1e3 * precision::quantile(values, share));
   return text;
 }
 
@@ -27,7 +27,7 @@ std::string nameOf(const std::string& body_a, const std::string& body_b) {
 }
 
 std::string secondsAfter(const ros::Time& begin, const ros::Time& time) {
-  return rounded((time - begin).toSec(), 3) + " s";
+  return fixedText((time - begin).toSec(), 3) + " s";
 }
 
 /// A heading, the first items, and the number of those left out.
@@ -142,7 +142,7 @@ std::string CycleStatistics::gapLines(const ros::Time& begin) const {
   if (gaps_.empty()) return "";
   double length = 0.0;
   for (const CycleRecord& gap : gaps_) length += (gap.end - gap.start).toSec();
-  return list("no cycle         for " + shortly(length) + " s", gaps(begin));
+  return list("no cycle         for " + durationText(length), gaps(begin));
 }
 
 std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
@@ -162,8 +162,8 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
     const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
     const double depth = is_felt ? contact.deepest.depth : contact.deepest.depth_error;
     items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
-                    shortly((contact.end - contact.begin).toSec()) + (is_felt ? " s, " : " s, at most ") +
-                    shortly(1e3 * depth) + " mm deep" + (contact.seen_at_samples ? "" : ", between samples"));
+                    durationText((contact.end - contact.begin).toSec()) + (is_felt ? ", " : ", at most ") +
+                    lengthText(depth) + " deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
   const auto pairs = std::count_if(pairs_.begin(), pairs_.end(), [](const auto& p) { return p.second.in_contact > 0; });
   return list("contact          " + counted(std::size_t(pairs), "pair") + ", " + counted(items.size(), "time"), items);
