@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "body/geometry_keys.h"
-#include "body/shared_content.h"
+#include "common/weak_store.h"
 #include "geometry/closed_solid.h"
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/field/distance_field.h"
@@ -15,6 +15,15 @@
 #include "storage/file_cache.h"
 
 namespace sdf_ccd {
+
+struct BodyTriangles;
+struct BuiltBody;
+
+/// What bodies of equal content share, for as long as one of them exists. Thread-safe.
+struct SharedContent {
+  WeakStore<BuiltBody> bodies;
+  WeakStore<BodyTriangles> triangles;
+};
 
 /// A mesh of the scene and the data built from it.
 struct PooledMesh {

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 
-#include "field/adaptive/adaptive_cost.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
-#include "field/uniform/uniform_cost.h"
 
 namespace sdf_ccd {
 namespace {

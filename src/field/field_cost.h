@@ -21,4 +21,8 @@ struct FieldCost {
 /// @throws as buildField() for options that are not valid, or for a grid that exceeds a limit even without samples.
 FieldCost expectedCost(const ClosedSolid& closed, const FieldOptions& options);
 
+/// Its parts: of options with a max_error, and of those with cells of one size.
+FieldCost expectedAdaptive(const Solid& solid, const FieldOptions& options);
+FieldCost expectedUniform(const Solid& solid, const FieldOptions& options);
+
 }  // namespace sdf_ccd

@@ -1,4 +1,4 @@
-#include "dae_file.h"
+#include "mesh_formats.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "obj_file.h"
+#include "mesh_formats.h"
 
 #include <charconv>
 #include <stdexcept>

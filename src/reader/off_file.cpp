@@ -1,4 +1,4 @@
-#include "off_file.h"
+#include "mesh_formats.h"
 
 #include <stdexcept>
 

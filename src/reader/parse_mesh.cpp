@@ -2,11 +2,7 @@
 
 #include <stdexcept>
 
-#include "dae_file.h"
-#include "obj_file.h"
-#include "off_file.h"
-#include "ply_file.h"
-#include "stl_file.h"
+#include "mesh_formats.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "ply_file.h"
+#include "mesh_formats.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "stl_file.h"
+#include "mesh_formats.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,3 @@
-#include "adaptive_cost.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "adaptive_shape.h"
 #include "block_builder.h"
 #include "common/processor_time.h"
+#include "field/field_cost.h"
 #include "field/sample_mean.h"
 #include "field/spread_order.h"
 #include "thinned_cells.h"

@@ -1,5 +1,3 @@
-#include "uniform_cost.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include "brick_sampler.h"
 #include "common/processor_time.h"
+#include "field/field_cost.h"
 #include "field/sample_mean.h"
 #include "field/spread_order.h"
 #include "uniform_shape.h"
