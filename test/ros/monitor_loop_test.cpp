@@ -152,6 +152,25 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
   }
 }
 
+TEST_F(MonitorLoopTest, AContactOfALatePairIsFoundWhereNothingNewerComes) {
+  for (int i = 0; i < 10; ++i) {
+    const double now = 10.0 + i * kPeriod;
+    sendFoot(now);
+    if (i < 5) sendHand(now, 0.0);
+    step(now);
+  }
+  sendHand(10.0 + 9 * kPeriod, 1.0);  // through the plate
+  ASSERT_EQ(step(10.0 + 10 * kPeriod), Step::kCycle);
+  EXPECT_EQ(last().cycle_start, last().header.stamp);
+  EXPECT_EQ(last().complete_until, last().header.stamp);
+  EXPECT_EQ(last().verdict, ContactArray::CONTACT);
+  EXPECT_EQ(last().delayed, 0u);
+  EXPECT_NE(pairOf(last(), "hand", "plate"), nullptr);
+  ASSERT_EQ(last().contacts.size(), 1u);
+  EXPECT_NEAR(last().contacts[0].begin.toSec(), 10.0 + kPeriod * (4 + 5 * (kPlate - kPlateHalf - kRadius)), 1e-3);
+  EXPECT_EQ(step(10.0 + 11 * kPeriod), Step::kWaiting);
+}
+
 TEST_F(MonitorLoopTest, ALinkAboveTheFixedFrameStopsNothing) {
   const auto verdictFrom = [&](double begin) {
     for (int i = 0; i < 5; ++i) {

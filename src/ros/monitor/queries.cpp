@@ -67,7 +67,7 @@ class MotionNotes {
 
 class Queries::Piece {
  public:
-  /// @param spent  computing time of the answer so far [s].
+  /// @param spent  time of the answer so far, without waiting [s].
   /// @throws Cancelled if the answer takes too long; so does the work of the piece.
   Piece(Queries& queries, double& spent)
       : turn_(queries.turns_),
@@ -104,7 +104,8 @@ void Queries::answerWith(const Work& work, Response& response) {
     response.success = true;
   } catch (const Cancelled&) {
     if (caller.asked()) throw;
-    fail("the request takes more than " + numberText(limits_.seconds) + " s of computing time: split it into parts");
+    fail("the request takes more than " + numberText(limits_.seconds) +
+         " s: split it into parts, or send it again when the computer is less busy");
   } catch (const std::exception& error) {
     fail(error.what());
   }

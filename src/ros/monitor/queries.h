@@ -50,7 +50,7 @@ class Queries {
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
  private:
-  /// One piece of an answer: waits for its turn, and measures its computing time.
+  /// One piece of an answer: waits for its turn, and measures its time.
   class Piece;
 
   template <class Response, class Work>
