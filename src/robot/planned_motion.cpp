@@ -23,13 +23,13 @@ void startAtZero(CycleMotion& motion) {
   motion.times = fromZero(std::move(motion.times));
 }
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refusePlan(const std::string& what) {
   throw std::invalid_argument("planned motion: " + what);
 }
 
 /// Resizes optional vectors to the number of bodies. @throws std::invalid_argument if sizes are inconsistent.
 void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
-  if (!motion.spans.empty()) refuse("spans are of cycles");
+  if (!motion.spans.empty()) refusePlan("spans are of cycles");
   MotionShape shape;
   for (std::size_t body = 0; body < is_moved.size(); ++body) shape.bodies.push_back("body " + std::to_string(body));
   validate(motion, shape, "planned motion");
@@ -48,9 +48,9 @@ void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
 
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
                         const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling) {
-  if (plan.missing.size() != robot.links().size()) refuse("a plan that completePlan() has not made");
+  if (plan.missing.size() != robot.links().size()) refusePlan("a plan that completePlan() has not made");
   if (!bodies.missing.empty() && bodies.missing.size() != bodies.bodies.size())
-    refuse(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) + " bodies");
+    refusePlan(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) + " bodies");
   PlannedMotion result;
   result.samples = fromZero(plan.trajectory.times);
   result.assumed = plan.assumed;
@@ -100,7 +100,7 @@ PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
 
 PlannedMotion withMargin(PlannedMotion motion, double margin) {
   if (!(margin >= 0.0) || !(margin <= kLargestMargin))
-    refuse("a margin must be from 0 to " + numberText(kLargestMargin) + " m, not " + numberText(margin) + " m");
+    refusePlan("a margin must be from 0 to " + numberText(kLargestMargin) + " m, not " + numberText(margin) + " m");
   if (margin == 0.0) return motion;
   motion.piece = [piece = std::move(motion.piece), margin](std::size_t first, std::size_t last, CycleMotion& result) {
     piece(first, last, result);

@@ -10,6 +10,7 @@
 
 #include "common/infinity.h"
 #include "common/number_text.h"
+#include "common/refuse.h"
 #include "joint_kind.h"
 #include "joint_motion.h"
 #include "motion/chain_derivatives.h"
@@ -20,10 +21,6 @@ namespace {
 
 constexpr double kAngle = 1.0;                    // maximum rotation of a link between two waypoints [rad]
 constexpr std::size_t kMaxAddedWaypoints = 2000;  // about 300 revolutions
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 double angleBetween(const Isometry3d& X_a, const Isometry3d& X_b) {
   return Quaterniond(X_a.linear()).angularDistance(Quaterniond(X_b.linear()));

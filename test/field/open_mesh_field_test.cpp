@@ -65,7 +65,7 @@ TEST(OpenMeshField, KnowsItsOpening) {
     EXPECT_NEAR(field.openingDistance({0.1, 0.1, 0.3}), 0.08, 1e-12);
     EXPECT_NEAR(field.openingDistance({0.1, 0.1, -0.3}), 0.52, 1e-12);
     const DistanceField closed = buildField(test::boxMesh(Vector3d::Constant(kHalf)), options);
-    EXPECT_EQ(closed.openingDistance({0, 0, 0}), TriangleTree::kInfinity);
+    EXPECT_EQ(closed.openingDistance({0, 0, 0}), kInfinity);
   }
 }
 

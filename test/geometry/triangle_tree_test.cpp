@@ -35,7 +35,7 @@ TriangleMesh randomSoup(int count, std::uint64_t seed) {
 }
 
 double bruteDistance(const TriangleMesh& mesh, const Vector3d& p) {
-  double best = TriangleTree::kInfinity;
+  double best = kInfinity;
   for (const Vector3i& t : mesh.triangles) {
     const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
     best = std::min(best, (q - p).norm());
@@ -80,7 +80,7 @@ TEST(FlatCylinder, HoldsWhatItWasMadeOf) {
     for (int k = 0; k < 5; ++k) held.push_back(randomPoint(random, 1));
     for (const Vector3d& p : held) cylinder.extend(p);
     const Vector3d p = randomPoint(random, 5);
-    double nearest = TriangleTree::kInfinity;
+    double nearest = kInfinity;
     for (const Vector3d& q : held) nearest = std::min(nearest, (q - p).norm());
     EXPECT_TRUE(cylinder.mayBeWithin(nearest, p));
   }
@@ -114,7 +114,7 @@ TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 300; ++i) {
     const Vector3d p = randomPoint(random, 1.5);
-    EXPECT_NEAR(tree.windingNumber(p, TriangleTree::kInfinity), test::windingNumber(mesh, p), 1e-11);
+    EXPECT_NEAR(tree.windingNumber(p, kInfinity), test::windingNumber(mesh, p), 1e-11);
   }
 }
 
@@ -234,8 +234,8 @@ TEST(TriangleTree, FarFromTheOriginNothingIsLost) {
   const Vector3d offset(1e5, -2e5, 3e5);
   const TriangleTree tree(test::translated(test::boxMesh({1, 1, 1}), offset));
   EXPECT_NEAR(tree.closestPoint(offset + Vector3d(0, 0, 3)).distance, 2, 1e-9);
-  EXPECT_NEAR(tree.windingNumber(offset, TriangleTree::kInfinity), 1, 1e-9);
-  EXPECT_NEAR(tree.windingNumber(offset + Vector3d(2, 1, 0), TriangleTree::kInfinity), 0, 1e-9);
+  EXPECT_NEAR(tree.windingNumber(offset, kInfinity), 1, 1e-9);
+  EXPECT_NEAR(tree.windingNumber(offset + Vector3d(2, 1, 0), kInfinity), 0, 1e-9);
 }
 
 TEST(TriangleTree, BadMeshesAreRefused) {
@@ -252,7 +252,7 @@ TEST(Triangle, ClosestPointAgreesWithDenseSampling) {
                                     : Vector3d(a + 0.4 * (b - a));
     const Vector3d p = randomPoint(random, 2);
     const double found = (closestOnTriangle(a, b, c, p) - p).norm();
-    double sampled = TriangleTree::kInfinity;
+    double sampled = kInfinity;
     constexpr int n = 60;
     for (int j = 0; j <= n; ++j) {
       for (int k = 0; k + j <= n; ++k) {

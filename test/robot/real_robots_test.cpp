@@ -67,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "example-robot-data/robots/ur_description/srdf/ur5.srdf", 8, 12, 16},
         RealRobot{"example-robot-data/robots/kinova_description/robots/kinova.urdf",
                   "example-robot-data/robots/kinova_description/srdf/kinova.srdf", 11, 21, 34},
-        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_left_hand.urdf", "", 21, 25, 185},
-        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 25, 185}),
+        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_left_hand.urdf", "", 21, 21, 189},
+        RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 21, 189}),
     test::ParameterName());
 
 }  // namespace

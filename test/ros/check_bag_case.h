@@ -16,15 +16,15 @@ namespace sdf_ccd::test {
 
 using Row = std::map<std::string, std::string>;  // by column name
 
-constexpr double kBegin = 100.0, kPeriod = 1.0 / 30.0;  // [s]
-constexpr int kBefore = 20, kAfter = 20;                // samples at rest
+constexpr double kBegin = 100.0, kSamplePeriod = 1.0 / 30.0;  // [s]
+constexpr int kBefore = 20, kAfter = 20;                      // samples at rest
 // config/demo/arm.urdf, with the hand pointing down: the finger is upright, at this distance from the axis of yaw.
 constexpr double kReach = 0.5, kTipHeight = 0.31, kFinger = 0.008;        // [m]
-constexpr double kPlateY = 0.18, kPlateHalf = 0.0005;                     // config/demo/world.yaml [m]
+constexpr double kPlateY = 0.18, kHalfPlate = 0.0005;                     // config/demo/world.yaml [m]
 constexpr double kFirstYaw = 0.2, kYawStep = 0.1, kLastYaw = 0.6 + 1e-9;  // [rad]
 
 inline double timeOfYaw(double yaw) {
-  return kBegin + kPeriod * (kBefore - 1 + (yaw - kFirstYaw) / kYawStep);
+  return kBegin + kSamplePeriod * (kBefore - 1 + (yaw - kFirstYaw) / kYawStep);
 }
 
 inline std::vector<Row> readCsv(const std::string& text) {
@@ -79,7 +79,7 @@ class CheckBag : public ToolTest {
     rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Write);
     const Pose pose = downwards();
     for (int i = 0; i < 240; ++i) {
-      const double time = kPeriod * i;
+      const double time = kSamplePeriod * i;
       if (time > from && time < until) continue;
       sensor_msgs::JointState state;
       state.header.stamp = ros::Time(kBegin + time);
@@ -103,7 +103,7 @@ class CheckBag : public ToolTest {
     rosbag::Bag bag(path("arm.bag").string(), later > 0.0 ? rosbag::bagmode::Append : rosbag::bagmode::Write);
     for (std::size_t i = 0; i < yaws.size(); ++i) {
       sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * double(i));
+      state.header.stamp = ros::Time(kBegin + kSamplePeriod * double(i));
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
       state.position = {yaws[i], pose.shoulder, pose.elbow, pose.wrist, 0.0, 1.0};
       bag.write("joint_states", state.header.stamp + ros::Duration(0.005 + later), state);

@@ -166,7 +166,7 @@ TEST_F(CheckBag, WhyNothingWasCheckedIsSaidFirst) {
     }
     for (auto& transform : message.transforms) transform.transform.rotation.w = 1.0;
     for (int i = 0; i < 60; ++i) {
-      for (auto& transform : message.transforms) transform.header.stamp = ros::Time(kBegin + kPeriod * i);
+      for (auto& transform : message.transforms) transform.header.stamp = ros::Time(kBegin + kSamplePeriod * i);
       bag.write("/tf", message.transforms[0].header.stamp, message);
     }
   };
@@ -205,7 +205,7 @@ TEST_F(CheckBag, JointStatesThatAreNotFiniteAreCounted) {
     const Pose pose = downwards();
     for (int i = 0; i < 60; ++i) {
       sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.header.stamp = ros::Time(kBegin + kSamplePeriod * i);
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll", "unknown"};
       const double nan = std::nan("");
       state.position = {kFirstYaw, pose.shoulder, nan, pose.wrist, 0.0, nan};
@@ -225,7 +225,7 @@ TEST_F(CheckBag, JointStatesThatLackPositionsAreCounted) {
     const Pose pose = downwards();
     for (int i = 0; i < 60; ++i) {
       sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.header.stamp = ros::Time(kBegin + kSamplePeriod * i);
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll"};
       state.position = {kFirstYaw, pose.shoulder, pose.elbow, pose.wrist, 0.0};
       if (i % 2 == 1) state.position.pop_back();
@@ -259,7 +259,7 @@ TEST_F(CheckBag, PairsWithinReachOnlyBeyondLimitsAreNoPairsOfThePlan) {
     rosbag::Bag bag(path("beyond.bag").string(), rosbag::bagmode::Write);
     for (int i = 0; i < 90; ++i) {
       sensor_msgs::JointState state;
-      state.header.stamp = ros::Time(kBegin + kPeriod * i);
+      state.header.stamp = ros::Time(kBegin + kSamplePeriod * i);
       state.name = {"slider"};
       state.position = {i < 30 || i >= 60 ? 0.0 : 0.01 * (i - 30)};
       bag.write("joint_states", state.header.stamp, state);

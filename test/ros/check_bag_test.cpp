@@ -27,13 +27,13 @@ TEST_F(CheckBag, FindsTheContactBetweenTwoSamples) {
   Row contact = contacts[0];
   EXPECT_EQ(contact["body_a"] + " " + contact["body_b"], "hand plate");
   EXPECT_EQ(contact["verdict"], "CONTACT");
-  const double enter = timeOfYaw(std::asin((kPlateY - kPlateHalf - kFinger) / kReach));
-  const double leave = timeOfYaw(std::asin((kPlateY + kPlateHalf + kFinger) / kReach));
+  const double enter = timeOfYaw(std::asin((kPlateY - kHalfPlate - kFinger) / kReach));
+  const double leave = timeOfYaw(std::asin((kPlateY + kHalfPlate + kFinger) / kReach));
   EXPECT_NEAR(std::stod(contact["start"]), enter, 1e-3);
   EXPECT_NEAR(std::stod(contact["end"]), leave, 1e-3);
   EXPECT_EQ(contact["seen_at_samples"], "0");
   EXPECT_NEAR(std::stod(contact["depth"]), kFinger, 1e-3);  // the plate's middle is at the finger's axis
-  EXPECT_NEAR(std::stod(contact["y"]), kPlateY, kPlateHalf + 1e-3);
+  EXPECT_NEAR(std::stod(contact["y"]), kPlateY, kHalfPlate + 1e-3);
   EXPECT_LT(std::stod(contact["error_bound"]), 1e-4);  // triangles decide
   const double of_contact = std::stod(contact["contact_error_bound"]);
   EXPECT_GE(of_contact, std::abs(std::stod(contact["depth"]) - kFinger));
@@ -155,7 +155,7 @@ TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
     rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
-    for (double time = kBegin; time < kBegin + 2.0; time += kPeriod)
+    for (double time = kBegin; time < kBegin + 2.0; time += kSamplePeriod)
       bag.write("/tf", ros::Time(time), message({stampedTransform("/odom", "/base", time, 0.0)}));
     bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // of another robot
   }
@@ -178,8 +178,8 @@ void expectGap(const std::vector<Row>& cycles, double from, double until) {
   EXPECT_EQ(last["verdict"], "NOT_CHECKED");
   EXPECT_EQ(last["reason"], "no new transforms");
   EXPECT_EQ(last["t0"], before["t1"]);
-  EXPECT_NEAR(std::stod(last["t0"]), from, 2.0 * kPeriod);
-  EXPECT_NEAR(std::stod(last["t1"]), until, 2.0 * kPeriod);
+  EXPECT_NEAR(std::stod(last["t0"]), from, 2.0 * kSamplePeriod);
+  EXPECT_NEAR(std::stod(last["t1"]), until, 2.0 * kSamplePeriod);
   EXPECT_GT(std::stoi(last["not_checked"]), 0);
   EXPECT_EQ(last["checked"] + last["skipped"], "00");
 }
@@ -192,7 +192,7 @@ TEST_F(CheckBag, WhatComesAfterTheLastTransformsIsNotChecked) {
   EXPECT_NE(result.error.find("sdf_ccd: nothing was checked from 1.428 s to "), std::string::npos) << result.error;
   EXPECT_NE(result.out.find("\nno cycle         for 2.5"), std::string::npos) << result.out;
   const std::vector<Row> cycles = table("made/cycles.csv");
-  expectGap(cycles, kBegin + kPeriod * (kBefore + 3 + kAfter), kBegin + 4.0);
+  expectGap(cycles, kBegin + kSamplePeriod * (kBefore + 3 + kAfter), kBegin + 4.0);
 
   // It is in the bag, too, and is not counted as a cycle.
   EXPECT_NE(result.out.find("\ncycles           " + std::to_string(cycles.size() - 1) + ":"), std::string::npos)
@@ -208,7 +208,7 @@ TEST_F(CheckBag, TransformsThatAreRefusedAreSaid) {
     const Pose pose = downwards();
     for (int i = 0; i < 90; ++i) {
       sensor_msgs::JointState state;
-      const ros::Time time(kBegin + kPeriod * i);
+      const ros::Time time(kBegin + kSamplePeriod * i);
       state.header.stamp = i < 45 ? time : time + ros::Duration(30.0);
       state.name = {"yaw", "shoulder", "elbow", "wrist", "roll"};
       state.position = {kFirstYaw, pose.shoulder, pose.elbow, pose.wrist, 0.0};
@@ -268,7 +268,7 @@ TEST_F(CheckBag, PairsWhoseBodiesAreNeverKnownAtOnceAreNotComplete) {
   writeHeldContact([](double time) { return time >= 3.0; });
   {
     rosbag::Bag bag(path("held.bag").string(), rosbag::bagmode::Append);
-    for (double time = kBegin + 5.0; time < kBegin + 8.0; time += kPeriod)
+    for (double time = kBegin + 5.0; time < kBegin + 8.0; time += kSamplePeriod)
       bag.write("/tf", ros::Time(time), message({stampedTransform("base", "late", time, 5.0)}));
   }
   const std::string world = readText(SDF_CCD_SOURCE_DIR "/config/demo/world.yaml");
@@ -298,7 +298,7 @@ TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
     EXPECT_EQ(contacts->verdict, ContactArray::NOT_CHECKED);
     EXPECT_EQ(contacts->reason, "no new transforms");
     EXPECT_TRUE(contacts->pairs.empty());
-    EXPECT_NEAR(contacts->header.stamp.toSec(), kBegin + 4.0, 2.0 * kPeriod);
+    EXPECT_NEAR(contacts->header.stamp.toSec(), kBegin + 4.0, 2.0 * kSamplePeriod);
     EXPECT_GT(message.getTime().toSec(), kBegin + 4.5);
     EXPECT_LT(message.getTime().toSec(), kBegin + 4.6);
   }
@@ -313,8 +313,9 @@ TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   {
     rosbag::Bag bag(path("made/checked.bag").string(), rosbag::bagmode::Append);
-    const auto late = stampedTransform("base", "turret", kBegin + 10.5 * kPeriod, 0.0, M_PI);  // far from its pose
-    bag.write("/tf", ros::Time(kBegin + 13.2 * kPeriod), message({late}));
+    const auto late =
+        stampedTransform("base", "turret", kBegin + 10.5 * kSamplePeriod, 0.0, M_PI);  // far from its pose
+    bag.write("/tf", ros::Time(kBegin + 13.2 * kSamplePeriod), message({late}));
   }
   const ToolRun result = run(check("made/checked.bag", "again"));
   EXPECT_NE(result.out.find("late transforms  in 1 cycles"), std::string::npos) << result.out;
@@ -323,7 +324,7 @@ TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
   for (Row cycle : table("again/cycles.csv")) {
     if (cycle["contradicted_since"] == "0.000000000") continue;
     ++contradicting;
-    EXPECT_NEAR(std::stod(cycle["contradicted_since"]), kBegin + 10.0 * kPeriod, 1e-6);
+    EXPECT_NEAR(std::stod(cycle["contradicted_since"]), kBegin + 10.0 * kSamplePeriod, 1e-6);
   }
   EXPECT_EQ(contradicting, 1);
 }
@@ -332,8 +333,8 @@ TEST_F(CheckBag, StartAndDurationChooseAPart) {
   ASSERT_EQ(run(check("arm.bag", "part", "--start 0.1 --duration 0.4")).exit_code, kDone);
   const std::vector<Row> cycles = table("part/cycles.csv");
   ASSERT_FALSE(cycles.empty());
-  EXPECT_NEAR(std::stod(Row(cycles.front())["t0"]), kBegin + 0.1, 2.0 * kPeriod);
-  EXPECT_NEAR(std::stod(Row(cycles.back())["t1"]), kBegin + 0.5, 2.0 * kPeriod);
+  EXPECT_NEAR(std::stod(Row(cycles.front())["t0"]), kBegin + 0.1, 2.0 * kSamplePeriod);
+  EXPECT_NEAR(std::stod(Row(cycles.back())["t1"]), kBegin + 0.5, 2.0 * kSamplePeriod);
   EXPECT_TRUE(table("part/contacts.csv").empty());
 }
 

@@ -8,16 +8,13 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "common/refuse.h"
 #include "motion/two_body_motion.h"
 #include "ros/messages/conversions.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 /// Times [s] since `start`.
 template <class Point>

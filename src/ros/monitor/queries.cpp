@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "common/number_text.h"
+#include "common/refuse.h"
 #include "common/seconds_since.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
@@ -23,10 +24,6 @@ namespace {
 constexpr std::size_t kPointsPerPiece = 500;
 constexpr std::size_t kMotionsPerPiece = 16;
 constexpr double kLong = 0.05;  // freed memory is returned after answers that take longer [s]
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 [[noreturn]] void refuseFrames(const std::string& one, const std::string& other) {
   refuse("the root poses of all motions must be in the same frame, but are in " + one + " and " + other);

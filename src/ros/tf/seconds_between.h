@@ -8,6 +8,9 @@ namespace sdf_ccd {
 
 constexpr double kLongestDuration = 2147483647.0;  // longest difference of two times that ROS can compute [s]
 
+/// Stamps and clocks that go back by less are late, or corrected; those that go back by more have jumped [s].
+constexpr double kJumpBack = 1.0;
+
 /// to - from [s], of times or durations. A ros::Duration holds at most 2^31 s, and subtraction in ROS throws beyond;
 /// clocks, stamps and requests from other nodes may be that far apart.
 template <class Time>

@@ -1,9 +1,10 @@
 #include "ros/tf/tf_edge.h"
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);       // clocks of publishers may disagree by less
 constexpr std::size_t kMaxBehind = 1000;  // a late transform is inserted only before at most this many records
 
 }  // namespace
@@ -60,7 +61,7 @@ void TfEdge::recordBefore(const TfPose& pose, bool is_same_parent, const TfKeep&
 }
 
 bool TfEdge::hasGoneBack(const TfPose& pose) {
-  if (pose.stamp >= before(records.back().stamp, kJumpBack)) return false;
+  if (pose.stamp >= before(records.back().stamp, ros::Duration(kJumpBack))) return false;
   if (behind_count_ > 0 && pose.stamp == behind_[behind_count_ - 1].stamp) return false;
   if (behind_count_ > 0 && pose.stamp < behind_[behind_count_ - 1].stamp) behind_count_ = 0;
   behind_[behind_count_++] = pose;

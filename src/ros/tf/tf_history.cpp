@@ -5,10 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
-const ros::Duration kJumpBack(1.0);                     // smaller corrections of a wall clock are ignored
 const ros::Duration kSimJumpBack(0.1);                  // two threads may see a simulated clock this much apart
 constexpr std::uint32_t kLastSecond = 1u << 31;         // ros::Duration cannot hold differences to later stamps
 constexpr std::size_t kLongestName = 256;               // characters in a frame's name
@@ -54,7 +55,7 @@ void TfHistory::setExtraFrames(const std::vector<std::string>& frames) {
 
 void TfHistory::watchClock(const ros::Time& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool jumps = now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : kJumpBack);
+  const bool jumps = now < before(clock_, ros::Time::isSimTime() ? kSimJumpBack : ros::Duration(kJumpBack));
   if (jumps) clear();
   jumped_ |= jumps;
   clock_ = jumps ? now : std::max(clock_, now);

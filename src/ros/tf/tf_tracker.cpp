@@ -12,7 +12,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kJumpBack = 1.0;       // as in TfHistory [s]
 constexpr double kJumpAhead = 2e9;      // longer differences may not fit a ros::Duration [s]
 constexpr double kRewindPerTime = 4.0;  // time that may be checked again, per time checked
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/refuse.h"
 #include "common/shown_text.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_file.h"
@@ -12,10 +13,6 @@
 
 namespace sdf_ccd {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 Isometry3d lookup(const TfHistory& history, const std::string& frame, const ros::Time& time) {
   Isometry3d X_WF;

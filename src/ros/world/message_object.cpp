@@ -4,15 +4,12 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "common/refuse.h"
 #include "common/shown_text.h"
 #include "ros/messages/conversions.h"
 
 namespace sdf_ccd {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument(what);
-}
 
 WorldShape::Shape toShape(const shape_msgs::SolidPrimitive& message, const std::string& name) {
   const std::vector<double>& size = message.dimensions;
