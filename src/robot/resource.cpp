@@ -40,6 +40,18 @@ std::string entryIgnoringCase(const fs::path& directory, const std::string& name
   return found;
 }
 
+bool existsIgnoringCase(const fs::path& path) {
+  std::error_code error;
+  fs::path found = path.root_path();
+  for (const fs::path& component : path.relative_path()) {
+    const bool as_written = fs::exists(found / component, error);
+    const std::string entry = as_written ? component.string() : entryIgnoringCase(found, component.string());
+    if (entry.empty()) return false;
+    found /= entry;
+  }
+  return true;
+}
+
 /// The path with every component as it is spelled on disk.
 fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::string& warning) {
   std::error_code error;
@@ -122,7 +134,7 @@ fs::path fileOf(const std::string& uri, const PackageFinder& packages, const std
   std::error_code ignored;
   if (decoded == uri || decoded.find('\0') != std::string::npos || fs::exists(path, ignored)) return path;
   const fs::path other = localPath(decoded, packages, base_directory);
-  return fs::exists(other, ignored) ? other : path;
+  return existsIgnoringCase(other) ? other : path;
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
   const SceneDescription scene = describe(chain()).scene;
   EXPECT_EQ(reasonFor(scene, "c", "d"), "rigidly joined");
   EXPECT_EQ(reasonFor(scene, "a", "b"), "adjacent");
-  EXPECT_EQ(reasonFor(scene, "b", "d"), "adjacent");
+  EXPECT_EQ(reasonFor(scene, "b", "d"), "out of reach");  // c lies between
   EXPECT_EQ(reasonFor(scene, "a", "c"), "checked");
   RobotSceneOptions options;
   options.check_adjacent = true;
