@@ -17,14 +17,14 @@ void returnEndOfHeap() {
   constexpr std::array<std::size_t, 9> kSizes{
       16 << 20,  8 << 20,   4 << 20,   2 << 20, 1 << 20,
       512 << 10, 256 << 10, 128 << 10, 64 << 10};  // below what is always mapped
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   std::array<void*, kSizes.size()> blocks{};
   for (std::size_t i = 0; i < kSizes.size(); ++i) {
     blocks[i] = std::malloc(kSizes[i]);
     if (blocks[i] == nullptr) break;
-    const auto begin = reinterpret_cast<std::uintptr_t>(blocks[i]);
-    const std::uintptr_t first = (begin + page - 1) / page * page, last = (begin + kSizes[i]) / page * page;
-    madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+    auto* const block = static_cast<char*>(blocks[i]);
+    const std::size_t before = (page - reinterpret_cast<std::uintptr_t>(block) % page) % page;
+    madvise(block + before, (kSizes[i] - before) / page * page, MADV_DONTNEED);
   }
   for (void* block : blocks) std::free(block);
 }
