@@ -50,7 +50,8 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
                         const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling) {
   if (plan.missing.size() != robot.links().size()) refusePlan("a plan that completePlan() has not made");
   if (!bodies.missing.empty() && bodies.missing.size() != bodies.bodies.size())
-    refusePlan(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) + " bodies");
+    refusePlan(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) +
+               " bodies");
   PlannedMotion result;
   result.samples = fromZero(plan.trajectory.times);
   result.assumed = plan.assumed;

@@ -40,36 +40,41 @@ std::string entryIgnoringCase(const fs::path& directory, const std::string& name
   return found;
 }
 
-bool existsIgnoringCase(const fs::path& path) {
+/// A path as it is spelled on disk.
+struct Spelling {
+  fs::path path;     ///< up to the first component that does not exist in any case
+  fs::path missing;  ///< that component's path; empty if all exist
+  std::string differences;
+};
+
+Spelling spellingOnDisk(const fs::path& path) {
   std::error_code error;
-  fs::path found = path.root_path();
+  Spelling found;
+  found.path = path.root_path();
   for (const fs::path& component : path.relative_path()) {
-    const bool as_written = fs::exists(found / component, error);
-    const std::string entry = as_written ? component.string() : entryIgnoringCase(found, component.string());
-    if (entry.empty()) return false;
-    found /= entry;
+    if (component.empty() || fs::exists(found.path / component, error)) {
+      found.path /= component;
+      continue;
+    }
+    const std::string entry = entryIgnoringCase(found.path, component.string());
+    if (entry.empty()) {
+      found.missing = found.path / component;
+      return found;
+    }
+    if (!found.differences.empty()) found.differences += ", ";
+    found.differences += "found " + shownText(entry) + ", the URI says " + shownText(component.string());
+    found.path /= entry;
   }
-  return true;
+  return found;
 }
 
 /// The path with every component as it is spelled on disk.
 fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::string& warning) {
-  std::error_code error;
-  fs::path found = path.root_path();
-  for (const fs::path& component : path.relative_path()) {
-    if (component.empty()) fail(uri, "is a directory");
-    if (fs::exists(found / component, error)) {
-      found /= component;
-      continue;
-    }
-    const std::string entry = entryIgnoringCase(found, component.string());
-    if (entry.empty()) fail(uri, "no such file (" + (found / component).string() + " does not exist)");
-    if (!warning.empty()) warning += ", ";
-    warning += "found " + shownText(entry) + ", the URI says " + shownText(component.string());
-    found /= entry;
-  }
-  if (!warning.empty()) warning = shownText(uri) + ": " + warning;
-  return found;
+  const Spelling found = spellingOnDisk(path);
+  if (!found.missing.empty()) fail(uri, "no such file (" + found.missing.string() + " does not exist)");
+  if (!path.has_filename()) fail(uri, "is a directory");
+  if (!found.differences.empty()) warning = shownText(uri) + ": " + found.differences;
+  return found.path;
 }
 
 std::string readFile(const fs::path& path, const std::string& uri) {
@@ -134,7 +139,7 @@ fs::path fileOf(const std::string& uri, const PackageFinder& packages, const std
   std::error_code ignored;
   if (decoded == uri || decoded.find('\0') != std::string::npos || fs::exists(path, ignored)) return path;
   const fs::path other = localPath(decoded, packages, base_directory);
-  return existsIgnoringCase(other) ? other : path;
+  return spellingOnDisk(other).missing.empty() ? other : path;
 }
 
 }  // namespace
