@@ -61,14 +61,15 @@ struct PlanOptions {
 /// need a field.
 ///
 /// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
-/// same frame, or of a body without geometry; fields and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot
-/// be covered with points), and pairs of two such bodies. A body that is one large primitive (a table, a wall) only has
-/// a field against bodies too small to contain it: their shells against its exact field detect every contact of the
-/// surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with them, contacts are
-/// detected to the edge gap instead of the spacing. All others are tested in both roles. A pair with a body that cannot
-/// be checked stays, requires nothing to be built, and is NOT_CHECKED; but if that body is a tile of a map
-/// (BodyDescription::map), which is still to come, the other body is prepared for it. An allowed pair may name bodies
-/// that the scene does not have (an SRDF's links without collision geometry).
+/// same frame, or of a body without geometry; fields and shells that no pair uses; shells of bodies with a half-space
+/// or a voxel map among their geometry (these cannot be covered with points), and pairs of two such bodies. A body that
+/// is one large primitive (a table, a wall) only has a field against bodies too small to contain it: their shells
+/// against its exact field detect every contact of the surfaces. If it is a box and edges are sampled separately, its
+/// points on edges are kept: with them, contacts are detected to the edge gap instead of the spacing. All others are
+/// tested in both roles. A pair with a body that cannot be checked stays, requires nothing to be built, and is
+/// NOT_CHECKED; but if that body is a tile of a map (BodyDescription::map), which is still to come, the other body is
+/// prepared for it. An allowed pair may name bodies that the scene does not have (an SRDF's links without collision
+/// geometry).
 /// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 

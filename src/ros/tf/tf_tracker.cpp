@@ -267,15 +267,21 @@ ros::Time TfTracker::latestEnd(const std::vector<std::string>& missing) const {
   return latest.isZero() ? reference_ : latest;
 }
 
+bool TfTracker::isKnown(std::size_t pair, const std::vector<std::string>& missing) const {
+  return missing[pairs_[pair].body_a].empty() && missing[pairs_[pair].body_b].empty();
+}
+
+/// How far a pair goes in a cycle that ends at `end`; if it is not known, that time is not checked.
+ros::Time TfTracker::goesUntil(std::size_t pair, bool is_known, const ros::Time& end) const {
+  if (!is_known) return end;
+  return std::max(times_[pair].until, std::min({ends_[pairs_[pair].body_a], ends_[pairs_[pair].body_b], end}));
+}
+
 /// Whether more is known of a pair that is behind the last cycle's end, or that it is too late.
 bool TfTracker::canCatchUp(const std::vector<std::string>& missing) const {
   if (are_together_) return false;
-  for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const int a = pairs_[p].body_a, b = pairs_[p].body_b;
-    const bool is_known = missing[a].empty() && missing[b].empty();
-    const ros::Time until = is_known ? std::min({ends_[a], ends_[b], last_end_}) : last_end_;
-    if (times_[p].until < until) return true;
-  }
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    if (times_[p].until < goesUntil(p, isKnown(p, missing), last_end_)) return true;
   return false;
 }
 
@@ -307,10 +313,8 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
   is_known_.resize(pairs_.size());
   bool are_together = true;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const int a = pairs_[p].body_a, b = pairs_[p].body_b;
-    const bool is_known = missing[a].empty() && missing[b].empty();
-    const ros::Time from = times_[p].until;
-    const ros::Time until = is_known ? std::max(from, std::min({ends_[a], ends_[b], cycle.end})) : cycle.end;
+    const bool is_known = isKnown(p, missing);
+    const ros::Time from = times_[p].until, until = goesUntil(p, is_known, cycle.end);
     times_[p] = {from, until};
     is_known_[p] = is_known;
     are_together &= is_known && from == cycle.start && until == cycle.end;

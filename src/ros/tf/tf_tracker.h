@@ -37,7 +37,7 @@ void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, c
 struct TrackedCycle {
   ros::Time start;
   ros::Time end;
-  ros::Time complete_until;  ///< all pairs are done up to here; `end` if none is delayed
+  ros::Time complete_until;  ///< all pairs are done up to here; `end` if none is behind
   ros::Time delayed_since;   ///< earliest time from which a pair without new transforms waits; 0 if there is none
   ros::Time origin;          ///< time 0 of the motion: `start`, or earlier if delayed pairs catch up
   CycleMotion motion;        ///< in the fixed frame
@@ -53,11 +53,11 @@ struct TrackedCycle {
 
 /// Divides recorded transforms into cycles (design §5). Every pair is checked from where its last check ended to where
 /// both its frames are known; a cycle ends where the latest pair does. If only pairs that are behind can go on, they do
-/// so in a cycle that starts at its end. The first cycle waits until all frames are
-/// known, or max_latency is over, but includes what was known of each pair while it waited. So a frame that lags behind
-/// delays only its own pairs, up to max_latency; then its bodies are CycleMotion::missing and the time is not checked.
-/// The lag is measured against the newest transform of all frames or, unless time is simulated, against the wall clock.
-/// Poses are sampled at every recorded transform and interpolated between them as by tf2.
+/// so in a cycle that starts at its end. The first cycle waits until all frames are known, or max_latency is over, but
+/// includes what was known of each pair while it waited. So a frame that lags behind delays only its own pairs, up to
+/// max_latency; then its bodies are CycleMotion::missing and the time is not checked. The lag is measured against the
+/// newest transform of all frames or, unless time is simulated, against the wall clock. Poses are sampled at every
+/// recorded transform and interpolated between them as by tf2.
 ///
 /// If a frame changes otherwise than by moving (from static to moving, to another parent), its pose in between is
 /// unknown: its bodies are missing for the cycle that sees the change. If transforms arrive after newer ones, the
@@ -109,6 +109,8 @@ class TfTracker {
   void noteFirst();
   bool begin(bool waited_enough, const std::vector<std::string>& missing);
   ros::Time latestEnd(const std::vector<std::string>& missing) const;
+  bool isKnown(std::size_t pair, const std::vector<std::string>& missing) const;
+  ros::Time goesUntil(std::size_t pair, bool is_known, const ros::Time& end) const;
   bool canCatchUp(const std::vector<std::string>& missing) const;
   bool canAdvanceTogether(const TrackedCycle& cycle) const;
   void storePairTimes();
