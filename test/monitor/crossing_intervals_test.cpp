@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// Two rods of which each crosses an edge of the other, in most places between the points of both shells.
+class CrossedRods : public ::testing::Test {
+ protected:
+  static constexpr double kHalf = 0.01, kOverlap = 1e-3;
+
+  /// @param cells  of the fields; points are centimetres apart.
+  static std::shared_ptr<const Scene> rods(int cells = 16) {
+    const Primitive rod = Box{{0.2, kHalf, kHalf}};
+    BodyOptions options = fine(0.02);
+    options.field.cells = cells;
+    return build({body("rod", rod), body("other", rod)}, options);
+  }
+
+  /// Pose of the other rod: the crossing is at x and y on the first one.
+  static Isometry3d across(double overlap, double x = -0.0407, double y = 0.0123) {
+    return translation({x, y, 2.0 * std::sqrt(2.0) * kHalf - overlap}) * pose({0, 0, 0}, kPi / 2, {0, 0, 1}) * kTurned;
+  }
+
+  /// @param poses  of the other rod during a cycle of 0.1 s.
+  static PairResult run(Monitor& monitor, const std::vector<Isometry3d>& poses) {
+    return monitor.run(cycle(0.1, {still(kTurned, poses.size()), poses}), {}).pairs[0];
+  }
+
+  static inline const Isometry3d kTurned = pose({0, 0, 0}, kPi / 4, {1, 0, 0});  // one edge on top, one below
+};
+
+/// No point is inside, and the depth is known only up to the error.
+TEST_F(CrossedRods, BetweenPointsTheyAreAsDeepAsTheErrorAllows) {
+  Monitor monitor(rods(64), soft());
+  int without_depth = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Isometry3d there = across(kOverlap, -0.05 + 0.0037 * i, 0.0023 * i);
+    monitor.reset();
+    const PairResult pair = run(monitor, {there, there});
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    if (pair.deepest.depth == 0.0) ++without_depth;
+    EXPECT_LE(std::abs(pair.deepest.depth - kOverlap / std::sqrt(2.0)), pair.contact_error.total()) << i;
+  }
+  EXPECT_GT(without_depth, 0);
+}
+
+/// No shell point feels them, and they part halfway through the third cycle: one contact from the first cycle's begin
+/// to then.
+TEST_F(CrossedRods, AContactLastsAsLongAsTheSurfacesCross) {
+  Monitor monitor(rods(), soft());
+  const auto between = [&](double from, double to) { return run(monitor, {across(from), across(to)}); };
+  for (int i = 0; i < 2; ++i) {
+    const PairResult lasts = between(kOverlap, kOverlap);
+    ASSERT_EQ(lasts.verdict, Verdict::kContact);
+    ASSERT_EQ(lasts.deepest.depth, 0.0) << "a shell point feels it";
+    EXPECT_GE(lasts.deepest.depth_error, kOverlap / std::sqrt(2.0));
+    ASSERT_EQ(lasts.intervals.size(), 1u);
+    EXPECT_EQ(lasts.intervals[0].enter, 0.0);
+    EXPECT_EQ(lasts.intervals[0].exit, 0.1);
+  }
+  const PairResult ends = between(kOverlap, -kOverlap);
+  ASSERT_EQ(ends.verdict, Verdict::kContact);
+  ASSERT_EQ(ends.intervals.size(), 1u);
+  EXPECT_EQ(ends.intervals[0].enter, 0.0);
+  EXPECT_LT(ends.intervals[0].exit, 0.051);
+  EXPECT_EQ(between(-kOverlap, -kOverlap).verdict, Verdict::kClear);
+  const PairResult begins = between(-kOverlap, kOverlap);
+  ASSERT_EQ(begins.intervals.size(), 1u);
+  EXPECT_GT(begins.intervals[0].enter, 0.049);
+  EXPECT_EQ(begins.intervals[0].exit, 0.1);
+}
+
+/// They slide along each other, so that a shell point dips in now and then. The surfaces cross all the time.
+TEST_F(CrossedRods, AContactLastsWhetherPointsFeelItOrNot) {
+  Monitor monitor(rods(), soft());
+  const auto at = [&](int step) { return across(kOverlap, -0.0407, -0.05 + 0.0025 * step); };
+  int felt = 0, hidden = 0;
+  for (int i = 0; i < 40; ++i) {
+    const PairResult pair = run(monitor, {at(i), at(i + 1)});
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    ++(pair.deepest.depth > 0.0 ? felt : hidden);
+    ASSERT_EQ(pair.intervals.size(), 1u) << i;
+    EXPECT_EQ(pair.intervals[0].enter, 0.0) << i;
+    EXPECT_EQ(pair.intervals[0].exit, 0.1) << i;
+  }
+  EXPECT_GT(felt, 0);
+  EXPECT_GT(hidden, 0);
+}
+
+/// They cross, part and cross again within one cycle, between points of the shells.
+TEST_F(CrossedRods, CrossingsThatPartWithinACycleAreSeveral) {
+  Monitor monitor(rods(), soft());
+  const PairResult pair = run(monitor, {across(kOverlap), across(-20.0 * kOverlap), across(kOverlap)});
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  ASSERT_EQ(pair.deepest.depth, 0.0) << "a shell point feels it";
+  ASSERT_EQ(pair.intervals.size(), 2u);
+  EXPECT_EQ(pair.intervals[0].enter, 0.0);
+  EXPECT_LT(pair.intervals[0].exit, 0.05);
+  EXPECT_GT(pair.intervals[1].enter, 0.05);
+  EXPECT_EQ(pair.intervals[1].exit, 0.1);
+}
+
+/// A rod goes right through a plate that is thinner than the distance of the rod's points, and where the plate has
+/// none: the plate's surface is as deep in the rod as the rod's half width.
+TEST(HiddenCrossing, IsNoDeeperThanItsError) {
+  Random random(5);
+  for (const double plate : {0.1, 0.5}) {
+    for (const double half : {0.004, 0.02}) {
+      SceneDescription description;
+      description.bodies = {body("plate", Primitive(Box{{plate, plate, 1e-4}})),
+                            body("rod", Primitive(Box{{half, half, 0.1}}))};
+      for (const BodyOptions& options : {optionsForContacts(), optionsFor({0.01})}) {
+        const auto scene = std::make_shared<const Scene>(
+            buildScene(description, planScene(description, planOptions(options)), options));
+        Monitor monitor(scene, soft());
+        for (int i = 0; i < 20; ++i) {
+          const auto anywhere = [&] { return uniform(random, -0.05, 0.05); };
+          const Isometry3d there = translation({anywhere(), anywhere(), anywhere()});
+          monitor.reset();
+          const PairResult pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(there)}), {}).pairs[0];
+          ASSERT_EQ(pair.verdict, Verdict::kContact);
+          if (pair.deepest.depth > 0.0) continue;
+          EXPECT_GE(pair.deepest.depth_error, half) << plate;
+          EXPECT_LE(pair.deepest.depth_error, 1.1 * half) << plate;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
