@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "common/number_text.h"
 #include "interrupt.h"
 #include "output_file.h"
 #include "progress_bar.h"
@@ -12,7 +13,6 @@
 #include "robot_monitor/learn_pairs.h"
 #include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
-#include "common/number_text.h"
 #include "ros/bag/recorded_positions.h"
 #endif
 
