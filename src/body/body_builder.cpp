@@ -17,6 +17,7 @@
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/opening_caps.h"
+#include "geometry/unit_hint.h"
 #include "motion/screw_motion.h"
 #include "shell/contact_gap.h"
 #include "shell/sample_surface.h"
@@ -49,6 +50,8 @@ class BodyBuilder {
       meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
       const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
       report.geometry += (report.geometry.empty() ? "" : ", ") + name;
+      if (const std::string hint = mesh && !geometry.watertight_voxels ? unitHint(**mesh) : ""; !hint.empty())
+        report.warnings.push_back(geometry.source + ": " + hint);
       const std::string doubt = mesh && !geometry.watertight_voxels ? warningOf(meshes_.back()->quality) : "";
       if (doubt.empty()) continue;
       report.warnings.push_back(geometry.source + ": " + doubt + ": " + summary(meshes_.back()->quality));

@@ -15,6 +15,7 @@
 #include "common/number_text.h"
 #include "field/field_cache.h"
 #include "field/source_field.h"
+#include "geometry/unit_hint.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd {
@@ -60,6 +61,7 @@ class CostEstimate {
         continue;
       }
       PooledMesh& mesh = pool_->find(geometry);
+      if (cost.hint.empty() && !geometry.watertight_voxels) cost.hint = unitHint(mesh.mesh);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs.field && is_new) addField(mesh, cost);
       const ShellUse use{body.geometry.size() > 1, needs.decides};
@@ -188,6 +190,7 @@ std::string summary(const SceneCost& cost) {
       });
   if (largest == cost.bodies.end()) return text;
   text += "; most for " + largest->name + ": " + about(largest->field_bytes + largest->shell_bytes, largest->seconds);
+  if (!largest->hint.empty()) text += " (" + largest->hint + ")";
   std::string uncertain;
   for (const BodyCost& body : cost.bodies)
     if (body.uncertain) uncertain += (uncertain.empty() ? "" : ", ") + body.name;

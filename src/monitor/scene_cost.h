@@ -23,6 +23,7 @@ struct BodyCost {
   double seconds = 0.0;        ///< on the threads of the caller's TBB arena; 0 for cached data
   double field_seconds = 0.0;  ///< the part of `seconds` for fields
   bool uncertain = false;      ///< a field may differ from its estimate by more than a factor of two
+  std::string hint;            ///< at a mistake that makes it cost so much, see unitHint(); empty if there is none
   bool in_cache = false;       ///< the fields of all of its meshes are cached
 
   /// Adds the cost of a field to be built, and of a shell with that many points.

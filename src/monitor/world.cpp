@@ -21,6 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kLongTime = 1.0;  // of making a version [s]
+
 std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& description) {
   auto body = std::make_shared<Body>(prepared);
   setPlace(description, *body);
@@ -54,8 +56,8 @@ struct WorldEditor::Impl {
   };
 
   std::vector<PreparedNeeds> needsOf(const SceneDescription& description, const ScenePlan& plan) const;
-  void requireAffordable(const SceneDescription& description, const ScenePlan& plan,
-                         const std::vector<std::string>& keys, const std::vector<PreparedNeeds>& needs);
+  SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan,
+                           const std::vector<std::string>& keys, const std::vector<PreparedNeeds>& needs);
   void finish(WorldSnapshot& snapshot, const std::vector<std::shared_ptr<const Body>>& prepared);
 
   const DistanceField* fieldOf(const GeometryDescription& part) const;
@@ -126,10 +128,10 @@ std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& de
   return needs;
 }
 
-/// Checks the cost of the bodies that are not prepared yet.
-void WorldEditor::Impl::requireAffordable(const SceneDescription& description, const ScenePlan& plan,
-                                          const std::vector<std::string>& keys,
-                                          const std::vector<PreparedNeeds>& needs) {
+/// The cost of the bodies that are not prepared yet. @throws as requireAffordable().
+SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description, const ScenePlan& plan,
+                                            const std::vector<std::string>& keys,
+                                            const std::vector<PreparedNeeds>& needs) {
   SceneDescription missing;
   ScenePlan missing_plan;
   for (std::size_t b = 0; b < keys.size(); ++b) {
@@ -147,7 +149,10 @@ void WorldEditor::Impl::requireAffordable(const SceneDescription& description, c
     missing_plan.edges_only.push_back(plan.edges_only[b]);
     missing_plan.needs_witnesses.push_back(plan.needs_witnesses[b]);
   }
-  if (!missing.bodies.empty()) sdf_ccd::requireAffordable(expectedCost(missing, missing_plan, options), options);
+  if (missing.bodies.empty()) return {};
+  SceneCost cost = expectedCost(missing, missing_plan, options);
+  requireAffordable(cost, options);
+  return cost;
 }
 
 /// Assigns body ids and stores the version's bodies by name.
@@ -190,7 +195,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::begin(SceneDescription descrip
 }
 
 std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription description,
-                                                       const std::function<void(const std::string&)>& progress) {
+                                                       const std::function<void(const std::string&)>& progress,
+                                                       const std::function<void(const std::string&)>& announce) {
   const auto start = Clock::now();
   const std::uint64_t version = impl_->last ? impl_->last->version + 1 : 1;
   const ScenePlan plan = planScene(description, planOptions(impl_->options));
@@ -198,7 +204,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   std::vector<PreparedNeeds> needs = impl_->needsOf(description, plan);
   std::vector<std::string> keys;
   for (const BodyDescription& body : description.bodies) keys.push_back(impl_->keys.keyOf(body));
-  impl_->requireAffordable(description, plan, keys, needs);
+  const SceneCost cost = impl_->affordableCost(description, plan, keys, needs);
+  if (announce && cost.seconds > kLongTime) announce(summary(cost));
 
   auto snapshot = std::make_shared<WorldSnapshot>();
   snapshot->version = version;
@@ -214,6 +221,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
     impl_->provideFields(body, pool);
     prepared[b] = &impl_->bodies.make(keys[b], body, needs[b], impl_->options, pool);
     ++snapshot->prepared;
+    for (const std::string& warning : prepared[b]->report.warnings)
+      snapshot->warnings.push_back(body.name + ": " + warning);
   };
   for (std::size_t b = 0; b < count; ++b) prepare(b);
   for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since

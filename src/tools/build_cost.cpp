@@ -6,6 +6,7 @@
 
 #include "common/number_text.h"
 #include "field/uniform/sparse_grid.h"
+#include "geometry/unit_hint.h"
 #include "monitor/scene_cost.h"
 #include "shell/sample_surface.h"
 
@@ -50,6 +51,7 @@ void announceCost(const std::string& name, const TriangleMesh& mesh, const Solid
   const auto affordable = [&](const FieldOptions& options) {
     BodyCost body;
     body.name = name;
+    body.hint = unitHint(mesh);
     body.addField(expectedCost(source, options));
     if (shell) body.addShell(expectedPoints(mesh, shell(errorOf(options, mesh))));
     SceneCost cost;

@@ -321,6 +321,26 @@ TEST(World, AChangeThatFailsChangesNothing) {
   EXPECT_EQ(editor.next(description)->version, 2U);
 }
 
+TEST(World, WarnsOfBodiesThatAreMade) {
+  const TriangleMesh torus = torusMesh(0.12, 0.04, 16, 8);
+  SceneDescription description{{body("arm", meshShape(torus)), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  BodyOptions options = coarse();
+  options.shell.spacing = 10.0;
+  WorldEditor editor(options);
+  std::vector<std::string> announced;
+  const auto announce = [&](const std::string& cost) { announced.push_back(cost); };
+  EXPECT_TRUE(editor.next(description, {}, announce)->warnings.empty());
+  description.bodies.push_back(body("part", meshShape(scaled(torus, Vector3d::Constant(1e3))), true));
+  const auto in_millimetres = editor.next(description, {}, announce);
+  ASSERT_EQ(in_millimetres->warnings.size(), 1u);
+  EXPECT_EQ(in_millimetres->warnings[0].find("part: "), 0u) << in_millimetres->warnings[0];
+  EXPECT_NE(in_millimetres->warnings[0].find("320 m long: is it in millimetres?"), std::string::npos)
+      << in_millimetres->warnings[0];
+  description.bodies.back().X_frame_B = translation({1.0, 0, 0});
+  EXPECT_TRUE(editor.next(description, {}, announce)->warnings.empty()) << "it was warned of before";
+  EXPECT_TRUE(announced.empty()) << announced[0];  // all of this is quick
+}
+
 TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
   SceneDescription description{
       {body("a", Primitive(Sphere{0.1})), body("b", Primitive(Sphere{0.1})), body("c", Primitive(Sphere{0.1}))}, {}};

@@ -46,9 +46,9 @@ class MarkersTest : public ::testing::Test {
     motion_.missing = missing_;
     result_ = monitor_->run(motion_, {false, 5});
     const CycleContext context{*scene_, motion_, motion_.times, start_};
-    const MarkerArray markers = drawer_.draw(result_, context, start_ + ros::Duration(kCycle + 0.25));
+    drawn_ = drawer_.draw(result_, context, start_ + ros::Duration(kCycle + 0.25));
     start_ += ros::Duration(kCycle);
-    return markers;
+    return drawn_;
   }
 
   static std::vector<Marker> named(const MarkerArray& markers, const std::string& name, int action = Marker::ADD) {
@@ -72,6 +72,7 @@ class MarkersTest : public ::testing::Test {
   CycleMotion motion_;
   CycleResult result_;
   std::vector<std::string> missing_;
+  MarkerArray drawn_;  // last
 };
 
 class ManyMarkersTest : public MarkersTest {
@@ -157,6 +158,7 @@ TEST_F(MarkersTest, LinksHaveTheColourOfTheirVerdict) {
   EXPECT_TRUE(isColor(colorOf(), Verdict::kNotChecked));
   draw({0.0, 2.0 * kRadius});  // they touch, up to rounding
   EXPECT_TRUE(isColor(colorOf(), Verdict::kUncertain));
+  EXPECT_EQ(status(drawn_).find("UNCERTAIN, within the error bound:\nball0 - ball1\n"), 0u) << status(drawn_);
   drawer_.clear("reset");
   missing_ = {"no transform", ""};
   const MarkerArray markers = draw({0.0, 0.5});

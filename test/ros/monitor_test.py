@@ -248,6 +248,7 @@ class MonitorTest(MonitorCase):
         state = self.states.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(state)
         self.assertEqual(state.verdict, MonitorState.NOT_CHECKED)
+        self.assertEqual(state.scene_version, 1)
         contacts = self.contacts.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(contacts)
         self.assertEqual(contacts.verdict, ContactArray.NOT_CHECKED)

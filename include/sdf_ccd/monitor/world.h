@@ -20,9 +20,10 @@ struct WorldSnapshot {
   std::shared_ptr<const Scene> scene;
   std::vector<std::uint64_t> body_ids;  ///< per body: the same in all versions as long as a body of its name exists
 
-  int prepared = 0;      ///< bodies whose field, shell or triangles were made for this version
-  int shared = 0;        ///< bodies that reuse one of the same geometry, with another pose or name
-  double seconds = 0.0;  ///< time that making it took
+  std::vector<std::string> warnings;  ///< about the bodies that were made for this version
+  int prepared = 0;                   ///< bodies whose field, shell or triangles were made for this version
+  int shared = 0;                     ///< bodies that reuse one of the same geometry, with another pose or name
+  double seconds = 0.0;               ///< time that making it took
 };
 
 /// Makes the next snapshot of a world from the last one. What has not changed is shared, so a change costs as much as
@@ -48,10 +49,12 @@ class WorldEditor {
 
   /// Makes the next version. If it throws, the last version is unchanged.
   /// @param progress  called with the name of each body that is being built.
+  /// @param announce  called before, with a line about the cost, if that is expected to take over a second.
   /// @throws std::invalid_argument if two bodies share a name, or a new or changed one cannot be built (the message
   /// names it); std::length_error if its expected cost exceeds what the options allow; Cancelled.
   std::shared_ptr<const WorldSnapshot> next(SceneDescription description,
-                                            const std::function<void(const std::string&)>& progress = {});
+                                            const std::function<void(const std::string&)>& progress = {},
+                                            const std::function<void(const std::string&)>& announce = {});
 
   /// The last version; null before the first.
   const std::shared_ptr<const WorldSnapshot>& last() const;

@@ -59,7 +59,7 @@ void CheckedBag::addLinks(const ros::Time& now) {
 
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
-  writeLatched(kMonitor + "state", now, toUncheckedState(loop_.fixedFrame(), reason, now));
+  writeLatched(kMonitor + "state", now, toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now));
   bag_.write(kMonitor + "markers", now, drawer_.clear(reason));
   addLinks(now);
 }

@@ -29,12 +29,28 @@ double depthOf(const PairStates& states, Verdict verdict) {
   return depth;
 }
 
-std::string headline(const PairStates& states) {
+std::string nameOf(const PairResult& pair, const Scene& scene) {
+  return scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
+}
+
+/// The pairs that are uncertain: one by name, and the number of the others.
+std::string uncertainPairs(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
+  std::size_t count = 0;
+  std::string example;
+  for (std::size_t i = 0; i < states.pairs().size(); ++i) {
+    if (states.pairs()[i].verdict == Verdict::kUncertain && ++count == 1)
+      example = nameOf(result.pairs[i], cycle.scene);
+  }
+  const std::string others = count > 1 ? " and " + std::to_string(count - 1) + " more" : "";
+  return wrapped(example.substr(0, kLongestReason) + others, kWidth);
+}
+
+std::string headline(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
   switch (states.verdict()) {
     case Verdict::kContact:
       return "CONTACT, " + lengthText(depthOf(states, Verdict::kContact)) + " deep";
     case Verdict::kUncertain:
-      return "UNCERTAIN: within the error bound";
+      return "UNCERTAIN, within the error bound:\n" + uncertainPairs(states, result, cycle);
     case Verdict::kNotChecked:
       return "NOT CHECKED";
     case Verdict::kClear:
@@ -52,7 +68,7 @@ std::string uncheckedPairs(const PairStates& states, const CycleResult& result, 
     if (states.pairs()[i].verdict != Verdict::kNotChecked) continue;
     const PairResult& pair = result.pairs[i];
     if (++count > 1 || pair.reason.empty()) continue;
-    example = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " + pair.reason;
+    example = nameOf(pair, cycle.scene) + ": " + pair.reason;
   }
   if (count == 0) return {};
   const std::string total = std::to_string(states.pairs().size());
@@ -85,7 +101,7 @@ int lineCount(const std::string& text) {
 }
 
 std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age) {
-  std::string text = headline(states);
+  std::string text = headline(states, result, cycle);
   if (result.checked + result.skipped > 0) {
     text += fmt::format("\nerror bound {}, {:.2f} s ago", lengthText(result.error_bound), std::max(0.0, age));
   }

@@ -217,8 +217,7 @@ bool CollisionMonitor::isSilent() const {
 void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
   const std::string reason = "a cycle has been running for " + numberText(elapsed.count()) + " s";
   NODELET_WARN_THROTTLE(1.0, "Not checked: %s", reason.c_str());
-  const auto state =
-      boost::make_shared<MonitorState>(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  const boost::shared_ptr<MonitorState> state = uncheckedState(reason);
   proximity_->publishStop(*state);
   state_publisher_.publish(state);
 }
@@ -257,10 +256,15 @@ void CollisionMonitor::reportIdle(const std::string& reason) {
 
 void CollisionMonitor::publishUnchecked(const std::string& reason) {
   last_idle_ = ros::WallTime::now();
-  const auto state =
-      boost::make_shared<MonitorState>(toUncheckedState(described_.fixed_frame, reason, ros::Time::now()));
+  const boost::shared_ptr<MonitorState> state = uncheckedState(reason);
   if (proximity_) proximity_->publishUnchecked(*state);
   outputs_ ? outputs_->publishUnchecked(reason, state) : state_publisher_.publish(state);
+}
+
+/// May be called while the thread of the cycles works.
+boost::shared_ptr<MonitorState> CollisionMonitor::uncheckedState(const std::string& reason) const {
+  const std::uint64_t version = queries_ ? queries_->world()->version() : 0;
+  return boost::make_shared<MonitorState>(toUncheckedState(version, described_.fixed_frame, reason, ros::Time::now()));
 }
 
 void CollisionMonitor::restart(const std::string& reason) {

@@ -57,6 +57,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void publishWorld();
   void reportIdle(const std::string& reason);
   void publishUnchecked(const std::string& reason);
+  boost::shared_ptr<MonitorState> uncheckedState(const std::string& reason) const;
   void restart(const std::string& reason);
 
   // Set during set-up, in this order; afterwards only the thread of the cycles changes them.

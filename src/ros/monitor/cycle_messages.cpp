@@ -201,8 +201,10 @@ ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::stri
   return message;
 }
 
-MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now) {
+MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fixed_frame, const std::string& reason,
+                              const ros::Time& now) {
   MonitorState message;
+  message.scene_version = scene_version;
   message.header.stamp = now;
   message.header.frame_id = fixed_frame;
   message.verdict = MonitorState::NOT_CHECKED;

@@ -32,7 +32,9 @@ MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);
 ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& reason);
 /// The same for a whole gap between cycles, sent at its end: cycles then start again, or have ended.
 ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason);
-MonitorState toUncheckedState(const std::string& fixed_frame, const std::string& reason, const ros::Time& now);
+/// @param scene_version  0 if there is no scene yet.
+MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fixed_frame, const std::string& reason,
+                              const ros::Time& now);
 
 /// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].
 void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message);

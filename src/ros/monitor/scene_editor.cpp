@@ -136,8 +136,10 @@ std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene
     SceneDescription description = scene.description(limits_);
     std::vector<UnreachablePair> unreachable = scene.unreachable(description);
     world = std::make_shared<const CheckedWorld>(
-        editor_->next(std::move(description), [&](const std::string& body) { making = body; }), std::move(unreachable),
-        scene.attachedSince());
+        editor_->next(
+            std::move(description), [&](const std::string& body) { making = body; },
+            [](const std::string& cost) { ROS_INFO("The next version of the scene needs %s", cost.c_str()); }),
+        std::move(unreachable), scene.attachedSince());
   });
   return world;
 }
@@ -189,6 +191,8 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
     response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
     response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
   }
+  if (!request.changes.empty())
+    sources.warnings.insert(sources.warnings.end(), world->snapshot->warnings.begin(), world->snapshot->warnings.end());
   for (const std::string& warning : sources.warnings) response.message += warning + "\n";
   response.success = true;
 }
