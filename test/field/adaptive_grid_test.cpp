@@ -264,6 +264,18 @@ TEST(AdaptiveGrid, MemoryLimitIsKept) {
   EXPECT_THROW(buildField(test::torusMesh(0.2, 0.08, 32, 16), options), std::length_error);
 }
 
+TEST(AdaptiveGrid, FitsALimitOfItsOwnSize) {
+  TriangleMesh star = test::icosphere(0.1, 2);
+  for (std::size_t i = 0; i < star.vertices.size(); i += 3) star.vertices[i] *= 4.0;
+  for (const TriangleMesh& mesh : {star, test::torusMesh(0.2, 0.08, 32, 16)}) {
+    FieldOptions options = maxError(0.001);
+    options.max_bytes = buildField(mesh, options).bytes();
+    EXPECT_EQ(buildField(mesh, options).bytes(), options.max_bytes);
+    --options.max_bytes;
+    EXPECT_THROW(buildField(mesh, options), std::length_error);
+  }
+}
+
 TEST(AdaptiveGrid, ALeafFillsAnOctant) {
   AdaptiveShape shape;
   shape.cell = 1.0;

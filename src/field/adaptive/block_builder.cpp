@@ -109,7 +109,6 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
   BuiltCell built;
   built.kind = BuiltCell::kNode;
   built.children = std::make_unique<std::array<BuiltCell, 64>>();
-  taker.count(sizeof(AdaptiveNode) + sizeof(NodeBases));
   const double half_side = 0.5 * near.cube().side, child_side = 0.5 * half_side;
   const LeafScale half_scale = AdaptiveGrid::leafScaleFor(half_side, shape_.band);
   for (int half = 0; half < 8; ++half) {
@@ -145,6 +144,8 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
     built.kind = BuiltCell::kFar;
     built.distance = near.centerDistance();
     built.children.reset();
+  } else {
+    taker.count(sizeof(AdaptiveNode) + sizeof(NodeBases));
   }
   return built;
 }

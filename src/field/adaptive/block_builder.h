@@ -36,7 +36,7 @@ class CellTaker {
 
   virtual ~CellTaker() = default;
 
-  /// Memory of the field [bytes]; includes cells that turn out to be far as a whole.
+  /// Memory of the field [bytes].
   virtual void count(std::size_t bytes) = 0;
   /// Whether a cell of this depth is wanted. If it is, end() follows when it has been built.
   virtual bool begin(int /*depth*/) { return true; }
