@@ -115,17 +115,23 @@ bool RobotModel::rigidlyJoined(const std::string& link_a, const std::string& lin
   return jointsBetween(link_a, link_b).empty();
 }
 
-bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) const {
-  const std::vector<int> types = jointsBetween(link_a, link_b);
-  if (types.size() != 1 || types[0] == urdf::Joint::FLOATING || types[0] == urdf::Joint::PLANAR) return false;
+bool RobotModel::neighbours(const std::string& link_a, const std::string& link_b) const {
   const int a = indexOf(link_a), b = indexOf(link_b);
-  const std::vector<std::pair<int, bool>> steps = path(a, b);
   const auto mayLieBetween = [&](int link) {
-    return link == a || link == b || urdf_->getLink(links_[static_cast<std::size_t>(link)])->collision_array.empty();
+    const std::string& name = links_[static_cast<std::size_t>(link)];
+    return link == a || link == b || (urdf_->getLink(name)->collision_array.empty() && unread_.count(name) == 0);
   };
+  const std::vector<std::pair<int, bool>> steps = path(a, b);
   return std::all_of(steps.begin(), steps.end(), [&](const std::pair<int, bool>& step) {
     return mayLieBetween(step.first) && mayLieBetween(parent_[static_cast<std::size_t>(step.first)]);
   });
+}
+
+bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) const {
+  const std::vector<std::pair<int, bool>> steps = path(indexOf(link_a), indexOf(link_b));
+  if (steps.size() != 1) return false;
+  const int type = jointAbove(steps[0].first).type;
+  return type != urdf::Joint::FIXED && type != urdf::Joint::FLOATING && type != urdf::Joint::PLANAR;
 }
 
 RobotModel::Reach RobotModel::reach(const std::string& link_a, const std::string& link_b) const {

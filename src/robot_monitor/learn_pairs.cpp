@@ -31,11 +31,9 @@ class PairSorter {
     for (const AllowedPair& pair : scene.allowed) {
       if (pair.reason == kOutOfReach) out_of_reach_.insert(namePair(pair.body_a, pair.body_b));
     }
-    for (const BodyDescription& body : scene.bodies) bodies_.insert(body.name);
     for (std::size_t link = 0; link < robot.links().size(); ++link) {
       index_[robot.links()[link]] = static_cast<int>(link);
     }
-    for (const BodyDescription& body : scene.bodies) findNeighbours(index_.at(body.name));
   }
 
   /// False if the pair needs no test; it is then added to `pairs`.
@@ -43,7 +41,7 @@ class PairSorter {
     const NamePair names = namePair(a.name, b.name);
     if (isKnown(a.name, b.name)) {
       ++pairs.known;
-    } else if (neighbours_.count(names) > 0) {
+    } else if (areJoined(a.name, b.name)) {
       pairs.disabled.push_back({a.name, b.name, "Adjacent"});
     } else if (!a.failure.empty() || !b.failure.empty()) {
       pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
@@ -66,32 +64,15 @@ class PairSorter {
            srdf_.isDisabledByDefault(b);
   }
 
-  /// The links with shapes that are adjacent to this one, across links without shapes.
-  void findNeighbours(int body) {
-    std::vector<int> open = {body};
-    std::set<int> seen = {body};
-    while (!open.empty()) {
-      const int link = open.back();
-      open.pop_back();
-      for (std::size_t other = 0; other < robot_.links().size(); ++other) {
-        const int next = static_cast<int>(other);
-        if (robot_.parent(next) != link && robot_.parent(link) != next) continue;
-        if (!seen.insert(next).second) continue;
-        const std::string &a = robot_.links()[body], &b = robot_.links()[next];
-        if (bodies_.count(b) == 0) {
-          open.push_back(next);
-        } else if (robot_.rigidlyJoined(a, b) || robot_.adjacent(a, b)) {
-          neighbours_.insert(namePair(a, b));
-        }
-      }
-    }
+  /// Whether they are joined rigidly or by one joint, with nothing between them.
+  bool areJoined(const std::string& a, const std::string& b) const {
+    return robot_.adjacent(a, b) || (robot_.rigidlyJoined(a, b) && robot_.neighbours(a, b));
   }
 
   const RobotModel& robot_;
   std::map<std::string, int> index_;
   SrdfPairs srdf_;
-  std::set<std::string> bodies_;
-  std::set<NamePair> out_of_reach_, neighbours_;
+  std::set<NamePair> out_of_reach_;
 };
 
 BodyOptions sceneOptions(double max_error) {

@@ -41,11 +41,17 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     if (linkOf(scene.pairs[p].body_a) >= 0 && linkOf(scene.pairs[p].body_b) >= 0) tested.push_back(p);
   if (tested.empty()) return {};
 
+  // Joints hold neighbours at small distances: what is too close to be told apart counts as overlapping.
+  const auto overlap = [&](std::size_t p, Verdict verdict) {
+    if (verdict != Verdict::kUncertain) return verdict == Verdict::kContact;
+    const PlannedPair& pair = scene.pairs[p];
+    return robot.neighbours(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+  };
   std::vector<OverlappingPair> found;
   const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions());
   std::vector<std::size_t> open;  // of scene.pairs
   for (std::size_t k = 0; k < tested.size(); ++k) {
-    if (at_rest[k].verdict != Verdict::kContact) continue;
+    if (!overlap(tested[k], at_rest[k].verdict)) continue;
     const PlannedPair& pair = scene.pairs[tested[k]];
     const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
     found.push_back({static_cast<int>(tested[k]), at_rest[k].depth, false});
@@ -65,7 +71,7 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     std::vector<std::size_t> still_open;
     for (std::size_t k = 0; k < open.size(); ++k) {
       bool touches = true;
-      for (std::size_t i = 0; i < round; ++i) touches = touches && verdicts[i * open.size() + k] == Verdict::kContact;
+      for (std::size_t i = 0; i < round; ++i) touches = touches && overlap(open[k], verdicts[i * open.size() + k]);
       if (touches) still_open.push_back(open[k]);
     }
     open = std::move(still_open);

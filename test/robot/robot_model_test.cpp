@@ -100,14 +100,16 @@ TEST(RobotModel, TellsRigidAndAdjacentLinks) {
   EXPECT_TRUE(robot.rigidlyJoined("upper", "bracket"));
   EXPECT_TRUE(robot.rigidlyJoined("tip", "tip"));
   EXPECT_FALSE(robot.rigidlyJoined("base", "upper"));
-  EXPECT_TRUE(robot.adjacent("base", "bracket"));  // one joint and a fixed one
-  EXPECT_TRUE(robot.adjacent("fore", "upper"));
+  EXPECT_TRUE(robot.adjacent("base", "upper"));
+  EXPECT_FALSE(robot.adjacent("base", "bracket"));  // one joint and a fixed one
+  EXPECT_TRUE(robot.adjacent("fore", "bracket"));
+  EXPECT_FALSE(robot.adjacent("fore", "upper"));
   EXPECT_FALSE(robot.adjacent("upper", "bracket"));
   EXPECT_FALSE(robot.adjacent("wheel", "upper"));
   EXPECT_THROW(robot.adjacent("wheel", "leg"), std::invalid_argument);
 }
 
-TEST(RobotModel, NothingIsAdjacentAcrossALinkWithAShape) {
+TEST(RobotModel, NeighboursHaveNoShapeBetweenThem) {
   const auto robot = [](const std::string& shape) {
     return RobotModel("<robot name='scara'><link name='post'/><link name='world'/><link name='base'>" + shape +
                       "</link><link name='arm'/>"
@@ -115,12 +117,18 @@ TEST(RobotModel, NothingIsAdjacentAcrossALinkWithAShape) {
                       "<joint name='b' type='fixed'><parent link='world'/><child link='post'/></joint>"
                       "<joint name='c' type='continuous'><parent link='base'/><child link='arm'/></joint></robot>");
   };
-  EXPECT_TRUE(robot("").adjacent("arm", "post"));
-  const RobotModel with_shape = robot("<collision><geometry><sphere radius='0.1'/></geometry></collision>");
-  EXPECT_FALSE(with_shape.adjacent("arm", "post"));
-  EXPECT_FALSE(with_shape.adjacent("post", "arm"));
-  EXPECT_TRUE(with_shape.adjacent("arm", "base"));
-  EXPECT_FALSE(with_shape.adjacent("world", "arm"));
+  EXPECT_TRUE(robot("").neighbours("arm", "post"));
+  EXPECT_TRUE(robot("").neighbours("post", "base"));
+  EXPECT_FALSE(robot("").adjacent("arm", "post")) << "they may be far apart, and the arm may reach the post";
+  for (const std::string radius : {"0.1", "unreadable"}) {
+    const RobotModel with_shape =
+        robot("<collision><geometry><sphere radius='" + radius + "'/></geometry></collision>");
+    EXPECT_FALSE(with_shape.neighbours("arm", "post")) << radius;
+    EXPECT_FALSE(with_shape.neighbours("post", "arm")) << radius;
+    EXPECT_TRUE(with_shape.neighbours("post", "base")) << radius;
+    EXPECT_TRUE(with_shape.adjacent("arm", "base")) << radius;
+    EXPECT_FALSE(with_shape.adjacent("world", "arm")) << radius;
+  }
 }
 
 TEST(RobotModel, NothingIsAdjacentAcrossAJointThatHoldsNothing) {

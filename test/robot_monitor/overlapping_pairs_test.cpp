@@ -111,6 +111,21 @@ TEST(OverlappingPairs, StayIfThatIsWanted) {
   EXPECT_TRUE(cart.has("base wheel"));
 }
 
+/// On a base without a shape, an arm turns 1 mm above the chassis, and through the mast.
+TEST(OverlappingPairs, OnlyWhatIsAlwaysCloseIsLeftOutBesideAJoint) {
+  const RobotModel robot("<robot name='turret'><link name='base'/>" + box("chassis", "1 1 0.1", "0 0 0.05") +
+                         joint("base", "chassis", "fixed", "0 0 0") + box("mast", "0.05 0.05 1", "0 0 0.5") +
+                         joint("base", "mast", "fixed", "0.4 0 0.1") + box("arm", "0.5 0.05 0.05", "0.25 0 0") +
+                         joint("base", "arm", "continuous", "0 0 0.126", "0 0 1") + "</robot>");
+  std::vector<std::string> warnings;
+  const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+  Scene scene = buildScene(description, planScene(description), coarse());
+  leaveOutOverlapping(robot, {}, scene);
+  ASSERT_EQ(scene.pairs.size(), 1u);
+  EXPECT_EQ(scene.bodies[scene.pairs[0].body_a].name, "arm");
+  EXPECT_EQ(scene.bodies[scene.pairs[0].body_b].name, "mast");
+}
+
 TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {
   Cart cart(true);
   leaveOutOverlapping(cart.robot, {}, cart.scene);

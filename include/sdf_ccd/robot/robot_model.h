@@ -63,8 +63,11 @@ class RobotModel {
   /// True if only fixed joints lie between the links.
   bool rigidlyJoined(const std::string& link_a, const std::string& link_b) const;
 
-  /// True if exactly one movable joint, and otherwise only fixed joints and links without collision shape, lie between
-  /// the links. Links on the two sides of a planar or floating joint are not adjacent.
+  /// True if no other link with a collision shape, read or not, lies between the links.
+  bool neighbours(const std::string& link_a, const std::string& link_b) const;
+
+  /// True if a movable joint, neither planar nor floating, connects the two links themselves. Links that are farther
+  /// apart in the tree may be apart in space, too, whatever lies between them: an arm may hit a mast beside its base.
   bool adjacent(const std::string& link_a, const std::string& link_b) const;
 
   /// Lower and upper bound of the distance between two links' origins over all joint positions [m].

@@ -54,7 +54,7 @@ struct Srdf {
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});
 
 struct RobotSceneOptions {
-  bool check_adjacent = false;  ///< also check links with one joint between them
+  bool check_adjacent = false;  ///< also check links that a movable joint connects
 };
 
 /// The bodies of a robot: one per link with collision elements, with the name and the frame of the link. Every mesh is
