@@ -220,6 +220,25 @@ void ContactCollector::join() {
   found_.resize(last + 1);
 }
 
+/// Adds the deepest point of each interval.
+void ContactCollector::addPeaks(PairResult& result) {
+  if (found_.empty()) return;
+  if (result.intervals.size() == 1) return result.peaks.push_back(result.deepest);
+  peaks_.assign(result.intervals.size(), nullptr);
+  for (const Found& found : found_) {
+    const auto after = std::upper_bound(result.intervals.begin(), result.intervals.end(), found.contact.time,
+                                        [](double time, const Interval& interval) { return time < interval.enter; });
+    if (after == result.intervals.begin()) continue;
+    const Found*& peak = peaks_[static_cast<std::size_t>(after - result.intervals.begin()) - 1];
+    if (!peak || found.contact.depth > peak->contact.depth) peak = &found;
+  }
+  for (const Found* peak : peaks_) {
+    if (!peak) continue;
+    result.peaks.push_back(peak->contact);
+    if (peak->field) result.peaks.back().depth_error = peak->field->sample(peak->p_F).error;
+  }
+}
+
 void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   mergeIntervals(intervals_, tolerance());
   result.intervals = intervals_;
@@ -233,6 +252,7 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
     if (found_[i].field) found_[i].contact.depth_error = found_[i].field->sample(found_[i].p_F).error;
   if (!found_.empty()) result.deepest = found_.front().contact;
   for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
+  addPeaks(result);
 
   if (!request.wrenches) return;
   result.on_a_W = (1.0 / duration()) * impulse_on_a_C_;  // Eq. 8, 9; C's origin is A's at the end

@@ -54,6 +54,7 @@ class ContactCollector {
   void addHits(const ContactInput& input, bool shell_is_a);
   void join();
   void joinWhereMany();
+  void addPeaks(PairResult& result);
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
   bool needsErrors(const DistanceField& field) const;
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
@@ -68,8 +69,9 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  std::vector<Isometry3d> X_CF_;  // per chord end: pose of the field's body
-  std::vector<Isometry3d> X_CG_;  // the same for a part, in one block
+  std::vector<const Found*> peaks_;  // per interval: its deepest; null if it has none
+  std::vector<Isometry3d> X_CF_;     // per chord end: pose of the field's body
+  std::vector<Isometry3d> X_CG_;     // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
   std::vector<ShellHit> listed_;                     // hits of a block

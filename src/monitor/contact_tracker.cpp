@@ -21,23 +21,28 @@ bool isWithin(const ContactPoint& point, const Interval& interval) {
   return interval.enter <= point.time && point.time <= interval.exit;
 }
 
+/// Whether a point proves that the pair touches within the interval: it is deep enough, or the surfaces cross there.
 bool proves(const PairResult& pair, const ContactPoint& point, const Interval& interval) {
-  return isWithin(point, interval) && pair.contact_error.provesContact(point.depth, point.depth_error);
+  return isWithin(point, interval) &&
+         (point.depth == 0.0 || pair.contact_error.provesContact(point.depth, point.depth_error));
 }
 
-/// Whether a listed point proves that the pair touches within the interval.
 bool isProved(const PairResult& pair, const Interval& interval) {
   return proves(pair, pair.deepest, interval) ||
-         std::any_of(pair.points.begin(), pair.points.end(),
+         std::any_of(pair.peaks.begin(), pair.peaks.end(),
                      [&](const ContactPoint& point) { return proves(pair, point, interval); });
 }
 
-/// The deepest listed point within the interval; null if none is listed.
+bool isDeeper(const ContactPoint& a, const ContactPoint& b) {
+  return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
+}
+
+/// The deepest point within the interval; null if none is known.
 const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interval) {
-  if (isWithin(pair.deepest, interval)) return &pair.deepest;
-  const auto found = std::find_if(pair.points.begin(), pair.points.end(),
-                                  [&](const ContactPoint& point) { return isWithin(point, interval); });
-  return found == pair.points.end() ? nullptr : &*found;
+  const ContactPoint* deepest = isWithin(pair.deepest, interval) ? &pair.deepest : nullptr;
+  for (const ContactPoint& point : pair.peaks)
+    if (isWithin(point, interval) && (!deepest || isDeeper(point, *deepest))) deepest = &point;
+  return deepest;
 }
 
 /// Mean force while the pair touched [N]; results hold the mean over the whole span.
@@ -224,9 +229,6 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
       (isProved(pair, interval) || std::none_of(pair.intervals.begin(), pair.intervals.end(), isProvedWithin));
   if (is_contact) contact.verdict = Verdict::kContact;
   const ContactPoint* deepest = deepestWithin(pair, interval);
-  const auto isDeeper = [](const ContactPoint& a, const ContactPoint& b) {
-    return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
-  };
   if (deepest && (!slot.has_deepest || isDeeper(*deepest, contact.deepest))) {
     contact.deepest = *deepest;
     // Of a contact that goes on over a swap the bodies may be in the other order now.

@@ -5,24 +5,29 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kTimes = 4;
-constexpr std::size_t kMaxIntervals = 8;
-constexpr double kRounding = 1e-9;  // of the span; shorter gaps are none
+constexpr int kTimes = 4;                 // parts of a gap, at whose ends crossings are looked for
+constexpr std::size_t kMaxIntervals = 8;  // where there are more, in the middle of the gaps between them only
+constexpr std::size_t kMaxGaps = 100;     // of which no more are tested
+constexpr double kRounding = 1e-9;        // of the span; shorter gaps are none
 
 class Gap {
  public:
+  /// @param times    number of parts.
   /// @param crosses  whether the surfaces certainly cross at a time.
   template <class Crosses>
-  Gap(const Interval& gap, bool touches_before, bool touches_after, const Crosses& crosses) {
+  Gap(const Interval& gap, bool touches_before, bool touches_after, int times, const Crosses& crosses) {
     const auto at = [&](int i) {
-      return i == kTimes ? gap.exit : gap.enter + (gap.exit - gap.enter) * i / double(kTimes);
+      return i == times ? gap.exit : gap.enter + (gap.exit - gap.enter) * i / double(times);
     };
-    int first = touches_before ? 1 : 0;  // not known to cross
-    while (first <= kTimes && crosses(at(first))) ++first;
-    int last = touches_after ? kTimes - 1 : kTimes;
-    while (last > first && crosses(at(last))) --last;
+    const auto touches = [&](int i) {
+      return (i == 0 && touches_before) || (i == times && touches_after) || crosses(at(i));
+    };
+    int first = 0;  // not known to touch
+    while (first <= times && touches(first)) ++first;
+    int last = times;
+    while (last > first && touches(last)) --last;
     if (first > 0) before_ = Interval{gap.enter, at(first - 1)};
-    if (first <= kTimes && last < kTimes) after_ = Interval{at(last + 1), gap.exit};
+    if (first <= times && last < times) after_ = Interval{at(last + 1), gap.exit};
   }
 
   void addTo(std::vector<Interval>& intervals) const {
@@ -37,16 +42,21 @@ class Gap {
 }  // namespace
 
 void addCrossings(SurfacePair& surfaces, double motion_error, SeparationMemory& memory,
-                  std::vector<Interval>& intervals) {
+                  std::vector<Interval>& intervals, std::vector<ContactPoint>& crossings) {
   const RelativeMotion& motion = surfaces.motion();
   const double start = motion.motion(0).t_start, end = motion.motion(motion.steps() - 1).t_end;
-  const auto crosses = [&](double time) { return surfaces.crossAt(time, motion_error, memory); };
+  const auto crosses = [&](double time) {
+    const std::optional<ContactPoint> crossing = surfaces.crossingAt(time, motion_error, memory);
+    if (crossing) crossings.push_back(*crossing);
+    return crossing.has_value();
+  };
   const std::size_t known = intervals.size();
   for (std::size_t i = 0; i <= known; ++i) {
-    if (i > 0 && i < known && known > kMaxIntervals) continue;
+    const bool is_between = i > 0 && i < known;
+    if (is_between && i > kMaxGaps) continue;
     const Interval gap{i == 0 ? start : intervals[i - 1].exit, i == known ? end : intervals[i].enter};
     if (gap.exit - gap.enter <= kRounding * (end - start)) continue;
-    Gap(gap, i > 0, i < known, crosses).addTo(intervals);
+    Gap(gap, i > 0, i < known, is_between && known > kMaxIntervals ? 2 : kTimes, crosses).addTo(intervals);
   }
   mergeIntervals(intervals, kRounding * (end - start));
 }

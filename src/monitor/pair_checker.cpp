@@ -248,18 +248,38 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
   result.deepest = crossing;
 }
 
-/// Sets a contact that no point of a shell feels.
-void PairChecker::setHiddenCrossing(const ContactPoint& crossing, PairResult& result) {
-  setCrossing(crossing, result);
-  const ErrorBound& error = result.contact_error;
-  result.deepest.depth_error = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
-  if (!surfaces_) return;
-  addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);
-  for (const Interval& interval : result.intervals) {
-    if (crossing.time < interval.enter || crossing.time > interval.exit) continue;
-    result.deepest.enter = interval.enter;
-    result.deepest.exit = interval.exit;
+/// Adds a known crossing of the surfaces to the contacts that points feel, and what lasts besides without being felt.
+void PairChecker::addCrossing(const ContactPoint& crossing, PairResult& result) {
+  std::vector<Interval>& intervals = result.intervals;
+  if (intervals.empty()) result.deepest = crossing;
+  const auto holds = [&](const Interval& interval) {
+    return interval.enter <= crossing.time && crossing.time <= interval.exit;
+  };
+  if (std::none_of(intervals.begin(), intervals.end(), holds)) {
+    const auto isLater = [&](const Interval& interval) { return crossing.time < interval.enter; };
+    intervals.insert(std::find_if(intervals.begin(), intervals.end(), isLater), {crossing.time, crossing.time});
+    result.peaks.push_back(crossing);
   }
+  if (surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, intervals, result.peaks);
+  boundHiddenDepths(result);
+}
+
+/// Points that only touch, or a crossing that no point feels, do not tell how deep the bodies are.
+void PairChecker::boundHiddenDepths(PairResult& result) const {
+  const ErrorBound& error = result.contact_error;
+  const double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
+  const auto bound = [&](ContactPoint& point) {
+    for (const Interval& interval : result.intervals) {
+      if (point.time < interval.enter || interval.exit < point.time) continue;
+      point.enter = std::min(point.enter, interval.enter);
+      point.exit = std::max(point.exit, interval.exit);
+    }
+    point.depth = std::max(point.depth, 0.0);  // not −0
+    point.depth_error = std::max(point.depth_error, hidden);
+  };
+  if (!(result.deepest.depth > 0.0)) bound(result.deepest);
+  for (ContactPoint& peak : result.peaks)
+    if (!(peak.depth > 0.0)) bound(peak);
 }
 
 /// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.
@@ -304,8 +324,7 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
   collector.finish(request, result);
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
-  if (crossing && result.intervals.empty()) return setHiddenCrossing(*crossing, result);
-  if (crossing && surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, result.intervals);
+  if (crossing) addCrossing(*crossing, result);
   // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
   // than the motion's error.
   const bool deep = collector.certainDepth() > result.error.chord + result.error.root;

@@ -80,7 +80,8 @@ class PairChecker {
   double givenError(const CycleMotion& motion) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
-  void setHiddenCrossing(const ContactPoint& crossing, PairResult& result);
+  void boundHiddenDepths(PairResult& result) const;
+  void addCrossing(const ContactPoint& crossing, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;

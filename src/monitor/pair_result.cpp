@@ -15,6 +15,7 @@ void clear(PairResult& result) {
   result.on_a_W = {};
   result.on_b_W = {};
   result.points.clear();
+  result.peaks.clear();
 }
 
 void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {

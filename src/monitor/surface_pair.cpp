@@ -104,7 +104,7 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
     }
     if (found.state == SeparationState::kCrossing) {
       answer.state = found.state;
-      answer.crossing = contactAt(found, step);
+      answer.crossing = contactAt(found, step, found.s);
       return answer;
     }
     const bool now = found.state == SeparationState::kApart;
@@ -121,11 +121,12 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
   return answer;
 }
 
-ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step) const {
+/// @param share  of the step at which the crossing was found.
+ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step, double share) const {
   const TwoBodyMotion motion = motion_.motion(step);
-  const Isometry3d X_WF = motion.X_WF.pose(found.s), X_WP = motion.X_WP.pose(found.s);
+  const Isometry3d X_WF = motion.X_WF.pose(share), X_WP = motion.X_WP.pose(share);
   ContactPoint contact;
-  contact.time = contact.enter = contact.exit = timeAt(motion, found.s);
+  contact.time = contact.enter = contact.exit = timeAt(motion, share);
   contact.p_W = X_WF * found.p_A;
   contact.normal_W = X_WF.linear() * found.normal_A;
   // From body A to body B. A single triangle does not tell the side: take the one where the other ball's centre lies.
@@ -149,7 +150,7 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
   return separation(field_->triangles->tree, shell_->triangles->tree, part, options, witness_, memory);
 }
 
-bool SurfacePair::crossAt(double time, double motion_error, SeparationMemory& memory) {
+std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
   std::size_t first = 0;
   for (std::size_t last = motion_.steps() - 1; first < last;) {
     const std::size_t middle = (first + last) / 2;
@@ -161,7 +162,9 @@ bool SurfacePair::crossAt(double time, double motion_error, SeparationMemory& me
   }
   const TwoBodyMotion step = motion_.motion(first);
   const double share = std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0);
-  return during(first, share, share, motion_error, memory).state == SeparationState::kCrossing;
+  const Separation found = during(first, share, share, motion_error, memory);
+  if (found.state != SeparationState::kCrossing) return std::nullopt;
+  return contactAt(found, first, share);
 }
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {

@@ -57,8 +57,8 @@ class SurfacePair {
   /// @param motion_error  upper bound of the error of the bodies' relative position [m].
   Answer decide(double motion_error, SeparationMemory& memory);
 
-  /// Whether the surfaces certainly cross at a time of the motion [s].
-  bool crossAt(double time, double motion_error, SeparationMemory& memory);
+  /// A certain crossing of the surfaces at a time of the motion [s]; empty if none is found.
+  std::optional<ContactPoint> crossingAt(double time, double motion_error, SeparationMemory& memory);
 
   /// The first touch of the surfaces [s]: they are apart before `enter` and certainly cross at `exit`, which is
   /// infinite if no crossing is certain. Unless they graze, they move by no more than the resolution between the two.
@@ -78,7 +78,7 @@ class SurfacePair {
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
-  ContactPoint contactAt(const Separation& found, std::size_t step) const;
+  ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
 
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one
   bool f_is_a_;

@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "monitor/scene_case.h"
 #include "monitor/tracker_case.h"
 
 namespace sdf_ccd {
@@ -93,6 +94,30 @@ TEST_F(TrackerTest, WhetherAContactIsSureFollowsFromItsOwnPoints) {
   // One contact over two cycles: the second cycle proves it, although it is less deep there.
   EXPECT_EQ(verdicts({{kUncertain, {{0.05, 0.1, 0.002, 0.003}}}, {kContact, {{0.0, 0.05, 0.001, 0.0002}}}}),
             "CONTACT ");
+}
+
+/// Within one cycle a ball dips into a block by 20, 30 and 20 mm: all of the deepest points are of the second dip.
+TEST(ContactTracker, EachContactOfACycleHasItsOwnDepth) {
+  const auto scene =
+      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.5, 0.5, 0.1}}), true)}, fine(0.01));
+  std::vector<Isometry3d> ball;
+  for (const double depth : {-0.05, 0.02, -0.05, 0.03, -0.05, 0.02, -0.05})
+    ball.push_back(translation({0, 0, 0.2 - depth}));
+  const CycleMotion motion = test::cycle(0.6, {ball, still(Isometry3d::Identity(), ball.size())});
+  for (const int max_points : {0, 5}) {
+    Monitor monitor(scene, soft());
+    const CycleResult result = monitor.run(motion, {false, max_points});
+    ASSERT_EQ(result.pairs[0].intervals.size(), 3u);
+    EXPECT_EQ(result.pairs[0].points.size(), std::size_t(max_points));
+    ContactTracker tracker(*scene);
+    tracker.update({result, motion, motion.times, std::chrono::seconds(100)});
+    ASSERT_EQ(tracker.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(tracker[i].verdict, Verdict::kContact);
+      EXPECT_NEAR(tracker[i].deepest.depth, i == 1 ? 0.03 : 0.02, 1e-3) << max_points;
+      EXPECT_NEAR(tracker[i].deepest.time, 0.1 + 0.2 * double(i), 1e-2);
+    }
+  }
 }
 
 TEST_F(TrackerTest, SamplesSeeWhatTheyHit) {

@@ -92,6 +92,18 @@ TEST_F(CrossedRods, AContactLastsWhetherPointsFeelItOrNot) {
   EXPECT_GT(hidden, 0);
 }
 
+/// The same in a single cycle, in which many points dip in, one after the other.
+TEST_F(CrossedRods, AContactLastsThoughManyPointsFeelItInTurn) {
+  Monitor monitor(rods(), soft());
+  const PairResult pair = run(monitor, {across(kOverlap, -0.0407, -0.19), across(kOverlap, -0.0407, 0.19)});
+  ASSERT_EQ(pair.verdict, Verdict::kContact);
+  EXPECT_GT(pair.deepest.depth, 0.0);
+  EXPECT_GT(pair.peaks.size(), 9u);
+  ASSERT_EQ(pair.intervals.size(), 1u);
+  EXPECT_EQ(pair.intervals[0].enter, 0.0);
+  EXPECT_EQ(pair.intervals[0].exit, 0.1);
+}
+
 /// They cross, part and cross again within one cycle, between points of the shells.
 TEST_F(CrossedRods, CrossingsThatPartWithinACycleAreSeveral) {
   Monitor monitor(rods(), soft());
@@ -103,6 +115,60 @@ TEST_F(CrossedRods, CrossingsThatPartWithinACycleAreSeveral) {
   EXPECT_LT(pair.intervals[0].exit, 0.05);
   EXPECT_GT(pair.intervals[1].enter, 0.05);
   EXPECT_EQ(pair.intervals[1].exit, 0.1);
+}
+
+/// In one cycle a rod goes through a block, and through the corner of a plate of the same body, which no point feels.
+/// The plate's corner is at 0.778 to 0.787 s, the block at 0.304 to 0.392 s.
+TEST(HiddenCrossing, IsToldBesideAContactThatPointsFeel) {
+  const double half = 0.0007, inside = 0.004;
+  const Vector3d corner(0.125, 0.125, 0.0), along = Vector3d(1, -1, 0).normalized(),
+                                            out = Vector3d(1, 1, 0).normalized();
+  const Isometry3d turned = pose({0, 0, 0}, -kPi / 4, {0, 0, 1});
+  BodyDescription plate = body("plate", Primitive(Box{{0.125, 0.125, 1e-4}}));
+  plate.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.12}}), translation(corner + 0.5 * along) * turned, "block"});
+  const BodyOptions options = optionsForContacts();
+  const SceneDescription description{{plate, body("rod", Primitive(Box{{half, half, 0.1}}))}, {}};
+  const auto scene =
+      std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
+  const auto at = [&](double s) {
+    return translation(corner - inside * out + s * along + Vector3d(0, 0, 0.0031)) * turned;
+  };
+  Monitor monitor(scene, soft());
+  const PairResult pair = monitor.run(cycle(1.0, {still(Isometry3d::Identity()), {at(0.9), at(-0.25)}}), {}).pairs[0];
+  ASSERT_EQ(pair.intervals.size(), 2u);
+  EXPECT_NEAR(pair.intervals[0].enter, (0.9 - 0.55 - half) / 1.15, 1e-3);
+  EXPECT_GE(pair.intervals[1].enter, (0.9 - inside - 2.0 * half) / 1.15);
+  EXPECT_LE(pair.intervals[1].exit, (0.9 + inside + 2.0 * half) / 1.15);
+  ASSERT_EQ(pair.peaks.size(), 2u);
+  for (const ContactPoint& peak : pair.peaks) {
+    const bool is_felt = peak.time < 0.5;
+    EXPECT_EQ(peak.depth > 0.0, is_felt);
+    EXPECT_TRUE(is_felt || peak.depth_error >= half);
+  }
+}
+
+/// A point of the rod lies on the plate's edge, exactly: it touches, while the plate's edge is deep in the rod.
+TEST(HiddenCrossing, IsNoDeeperThanItsErrorWherePointsTouch) {
+  for (const double half : {1.0 / 256, 1.0 / 128}) {
+    const BodyOptions options = optionsForContacts();
+    const SceneDescription description{
+        {body("plate", Primitive(Box{{0.125, 0.125, 1.0 / 8192}})), body("rod", Primitive(Box{{half, half, 0.125}}))},
+        {}};
+    const auto scene =
+        std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
+    Monitor monitor(scene, soft());
+    int hidden = 0;
+    for (int i = -200; i < 200; ++i) {
+      monitor.reset();
+      const Isometry3d there = translation({0.125 - half, i / 2048.0, 0.0421});
+      const PairResult pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(there)}), {}).pairs[0];
+      ASSERT_EQ(pair.verdict, Verdict::kContact);
+      if (pair.deepest.depth > 0.0) continue;  // points feel it
+      EXPECT_GE(pair.deepest.depth_error, half) << i;
+      ++hidden;
+    }
+    EXPECT_GT(hidden, 5);
+  }
 }
 
 /// A rod goes right through a plate that is thinner than the distance of the rod's points, and where the plate has

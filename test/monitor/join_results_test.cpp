@@ -29,6 +29,25 @@ CycleMotion piece(const CycleMotion& whole, std::size_t first, std::size_t last)
   return motion;
 }
 
+/// In the first piece a point only touches; in the second one the surfaces cross where no point feels it.
+TEST(ResultJoiner, TheBoundOfAHiddenDepthIsKept) {
+  const CycleMotion motion = cycle(1.0, {still(Isometry3d::Identity()), still(Isometry3d::Identity())});
+  ResultJoiner joiner(5);
+  for (const double depth_error : {1e-17, 1e-3}) {
+    CycleResult piece;
+    piece.pairs.resize(1);
+    PairResult& pair = piece.pairs[0];
+    pair.body_a = 0;
+    pair.body_b = 1;
+    pair.verdict = Verdict::kContact;
+    pair.span = {0, 1};
+    pair.intervals = {{0.2, 0.3}};
+    pair.deepest.depth_error = depth_error;
+    joiner.add(motion, piece);
+  }
+  EXPECT_EQ(joiner.result().pairs[0].deepest.depth_error, 1e-3);
+}
+
 TEST(ResultJoiner, PiecesTogetherSayWhatTheWholeSays) {
   const auto scene =
       build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.05, 0.4, 0.35}}), true)}, fine(0.01));

@@ -99,7 +99,7 @@ class TrackerTest : public ::testing::Test {
         point.depth = touch.depth;
         point.depth_error = touch.depth_error;
         point.normal_W = Vector3d::UnitZ();
-        pair.points.push_back(point);
+        pair.peaks.push_back(point);
         if (point.depth >= pair.deepest.depth) pair.deepest = point;
       }
       result.verdict = std::max(result.verdict, pair.verdict);
