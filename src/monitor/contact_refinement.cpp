@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/time_at.h"
+#include "pair_bound.h"
 
 namespace sdf_ccd {
 namespace {
@@ -84,7 +85,8 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
     if (intervals.empty()) intervals.push_back({touch.enter, touch.enter});
     intervals.front().enter = std::max(intervals.front().enter, touch.enter);
     const auto isTooEarly = [&](const ContactPoint& point) { return point.exit < touch.enter; };
-    result.points.erase(std::remove_if(result.points.begin(), result.points.end(), isTooEarly), result.points.end());
+    for (std::vector<ContactPoint>* points : {&result.points, &result.peaks})
+      points->erase(std::remove_if(points->begin(), points->end(), isTooEarly), points->end());
     result.deepest.time = std::max(result.deepest.time, intervals.front().enter);
   }
   if (!(touch.exit < intervals.front().enter)) return;
@@ -124,6 +126,10 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   }
   point.depth = search.deepest().depth;
   point.depth_error = search.error() + error;
+  // Without its fields, a body's inside is not searched for the other's surface.
+  for (const int body : {result.body_a, result.body_b})
+    if (scene_.bodies[body].parts.empty())
+      point.depth_error = std::max(point.depth_error, greatestDepth(scene_.bodies[body]) + error - point.depth);
   setTimes(result.intervals, point);
   if (point.depth > error) result.verdict = Verdict::kContact;
   result.deepest = point;

@@ -17,14 +17,6 @@ double gapToField(const PointShell& shell, const Body& field) {
   return isPlane(field) ? contactGapToPlane(shell) : shell.covering_radius;
 }
 
-/// Upper bound of the depth of points inside a body [m].
-double greatestDepth(const Body& body) {
-  if (!body.triangles) return body.ball.radius;
-  const BoxTree::Node& root = body.triangles->tree.node(body.triangles->tree.root().node);
-  const float half = std::min({root.half[0][0], root.half[1][0], root.half[2][0]});
-  return static_cast<double>(half) + static_cast<double>(root.radius[0]);
-}
-
 }  // namespace
 
 double fieldError(const Body& body) {
@@ -55,6 +47,13 @@ ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair) {
   if (!hasTriangles(scene, pair)) return pairBound(scene, pair);
   const auto deviation = [&](int body) { return scene.bodies[body].triangles->deviation; };
   return {0.0, 0.0, 0.0, deviation(pair.body_a) + deviation(pair.body_b)};
+}
+
+double greatestDepth(const Body& body) {
+  if (!body.triangles) return body.ball.radius;
+  const BoxTree::Node& root = body.triangles->tree.node(body.triangles->tree.root().node);
+  const float half = std::min({root.half[0][0], root.half[1][0], root.half[2][0]});
+  return static_cast<double>(half) + static_cast<double>(root.radius[0]) + body.triangles->deviation;
 }
 
 double hiddenDepth(const Scene& scene, const PlannedPair& pair) {

@@ -21,6 +21,9 @@ inline bool hasTriangles(const Scene& scene, const PlannedPair& pair) {
 /// Error bound of a pair's verdict before any motion: the deviation of the triangles if they decide, else pairBound().
 ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair);
 
+/// Upper bound of the depth of points inside a body [m].
+double greatestDepth(const Body& body);
+
 /// Upper bound of the depth to which the surfaces of a pair cross if no point of its shells is inside [m], without the
 /// errors of fields and motion. It exceeds the gap of pairBound(), which bounds only how far points are from where the
 /// surfaces first touch: a rod goes through a plate that is thinner than the distance of the rod's points, and the

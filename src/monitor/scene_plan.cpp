@@ -128,6 +128,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       if (a_faces) needs_faces[i] = true;
       if (b_faces) needs_faces[k] = true;
       has_pair[i] = has_pair[k] = true;
+      if (a_can && b_can && options.both_fields) plan.needs_field[i] = plan.needs_field[k] = true;
       if (a_shell) plan.needs_shell[i] = plan.needs_field[k] = true;
       if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
     }

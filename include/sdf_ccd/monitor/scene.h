@@ -52,6 +52,7 @@ struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
   double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled separately
+  bool both_fields = false;         ///< both bodies of a pair have a field, whatever shells there are: for exact depths
 };
 
 /// Plans which fields, shells and tests the pairs of a scene need.
@@ -90,6 +91,7 @@ struct Scene {
 /// The options that planScene() needs.
 inline PlanOptions planOptions(const BodyOptions& options) {
   PlanOptions plan;
+  plan.both_fields = options.exact_depths;
   plan.shell_spacing = options.shell.spacing;
   plan.edge_gap = options.shell.edge_gap < options.shell.spacing ? options.shell.edge_gap : 0.0;
   return plan;
