@@ -320,6 +320,26 @@ TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   EXPECT_NEAR(spanEnd(1), 10.7, 1e-9);
 }
 
+/// At the start no transforms come for 0.6 s, longer than is waited for them; then all do at once.
+TEST_F(TfTrackerTest, WhatComesAfterTheFirstCycleHasBegunIsChecked) {
+  EXPECT_EQ(next(10.0), Step::kWaiting);
+  EXPECT_EQ(next(10.55), Step::kWaiting);  // the first cycle begins here
+  ASSERT_EQ(next(10.58), Step::kCycle);
+  EXPECT_EQ(cycle_.origin, ros::Time(10.0)) << "the time that was waited for is named";
+  for (const int body : {0, 1}) EXPECT_NE(cycle_.motion.missing[body], "");
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanStart(pair), 10.0, 1e-9);
+  for (int i = 0; i <= 30; ++i) {
+    send(stampedTransform("world", "hand", 10.0 + 0.02 * i, 0.01 * i));
+    send(stampedTransform("world", "foot", 10.1 + 0.017 * i, 0.0));
+  }
+  ASSERT_EQ(next(10.61), Step::kCycle);
+  for (const std::string& why : cycle_.motion.missing) EXPECT_EQ(why, "");
+  EXPECT_NEAR(spanStart(0), 10.1, 1e-9);
+  EXPECT_NEAR(spanStart(1), 10.0, 1e-9);
+  EXPECT_NEAR(spanStart(2), 10.1, 1e-9);
+  for (const int pair : {0, 1, 2}) EXPECT_GE(spanEnd(pair), 10.6 - 1e-9);
+}
+
 TEST_F(TfTrackerTest, WhatWasKnownBeforeTheLastFrameCameIsChecked) {
   for (int i = 0; i < 8; ++i) {
     send(stampedTransform("world", "hand", 10.0 + 0.05 * i, 0.01 * i));
@@ -362,8 +382,8 @@ TEST_F(TfTrackerTest, AfterAJumpNothingIsLostOfTheNewTime) {
   EXPECT_NEAR(spanEnd(0), 5.3, 1e-9);
 }
 
-/// A robot that has long been running is joined at the present.
-TEST_F(TfTrackerTest, BeginsAtThePresentIfTransformsHaveLongBeenKnown) {
+/// Transforms that come in a burst, after a gap in the network, are as old as the gap is long.
+TEST_F(TfTrackerTest, ChecksWhatIsOlderThanItsFirstLook) {
   for (int i = 0; i <= 40; ++i) {
     send(stampedTransform("world", "hand", 10.0 + 0.05 * i, 0.0));
     send(stampedTransform("world", "foot", 10.0 + 0.05 * i, 0.0));
@@ -372,7 +392,10 @@ TEST_F(TfTrackerTest, BeginsAtThePresentIfTransformsHaveLongBeenKnown) {
   send(stampedTransform("world", "hand", 12.1, 0.0));
   send(stampedTransform("world", "foot", 12.1, 0.0));
   ASSERT_EQ(next(12.1), Step::kCycle);
-  EXPECT_EQ(cycle_.origin, ros::Time(12.0));
+  EXPECT_EQ(cycle_.origin, ros::Time(10.0));
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanStart(pair), 10.0, 1e-9);
+  for (const int pair : {0, 1, 2}) EXPECT_NEAR(spanEnd(pair), 12.1, 1e-9);
+  for (const std::string& why : cycle_.motion.missing) EXPECT_EQ(why, "");
 }
 
 TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyLate) {

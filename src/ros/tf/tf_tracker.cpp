@@ -95,6 +95,8 @@ void TfTracker::reset() {
   waits_since_ = ros::Time();
   versions_.assign(bodies_.size(), 0);
   changed_.assign(bodies_.size(), ros::Time());
+  added_.assign(bodies_.size(), ros::Time());
+  was_known_.assign(bodies_.size(), 0);
   are_together_ = false;
   late_.clear();
   too_late_.assign(bodies_.size(), "");
@@ -136,6 +138,7 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
     if (hasChanged(body)) changed_[body] = cycle.end;
     versions_[body] = spans_[body].version;
+    was_known_[body] = was_known_[body] || spans_[body].problem.empty();
     too_late_[body].clear();
   }
   try {
@@ -149,7 +152,10 @@ TfTracker::Step TfTracker::next(const ros::Time& now, TrackedCycle& cycle) {
 
 void TfTracker::readHistory(const ros::Time& now, std::vector<std::string>& missing) {
   history_.takeSpans(chains_, spans_);
-  if (!last_end_.isZero()) rewindLatePairs();
+  if (!last_end_.isZero()) {
+    rewindNewPairs();
+    rewindLatePairs();
+  }
   ros::Time newest;
   for (const TfSpan& span : spans_) newest = std::max(newest, span.last);
   // Transforms may be stamped ahead of the clock, or come from a bag that is played without one.
@@ -187,6 +193,25 @@ void TfTracker::findMoving() {
   }
 }
 
+/// Sets back the pairs of frames that have just become known, to where their transforms begin: these may be older than
+/// the last cycle, as after a gap in the network, and their time was not checked.
+void TfTracker::rewindNewPairs() {
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const TfSpan& span = spans_[body];
+    if (was_known_[body] || !span.problem.empty() || span.first >= last_end_) continue;
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const auto a = static_cast<std::size_t>(pairs_[p].body_a), b = static_cast<std::size_t>(pairs_[p].body_b);
+      if (a != body && b != body) continue;
+      const TfSpan& other = spans_[a == body ? b : a];
+      if (!other.problem.empty()) continue;
+      storePairTimes();
+      const ros::Time since = std::max({begin_, added_[a], added_[b], span.first, other.first});
+      const double age = secondsBetween(since, times_[p].until);
+      if (age > 0.0 && age <= options_.max_cycle && mayRewind(age)) times_[p].until = since;
+    }
+  }
+}
+
 /// Sets back the pairs that were checked with an interpolation now known to be wrong.
 void TfTracker::rewindLatePairs() {
   for (std::size_t body = 0; body < bodies_.size(); ++body) {
@@ -221,13 +246,10 @@ bool TfTracker::mayRewind(double age) {
   return true;
 }
 
-/// Notes the time since when the first moving frame is known: that of its last transform if it had been known for
-/// longer than frames are waited for, as when the monitor joins a robot that runs.
+/// Notes the time since when the first moving frame is known.
 void TfTracker::noteFirst() {
   const std::optional<std::size_t> earliest = earliestOf(ends_);
-  if (!first_.isZero() || !earliest) return;
-  const ros::Time known = spans_[*earliest].first, end = ends_[*earliest];
-  first_ = secondsBetween(known, end) <= options_.max_latency ? known : end;
+  if (first_.isZero() && earliest) first_ = spans_[*earliest].first;
 }
 
 /// Begins the first cycle where all bodies are known or, after some time, all but those that are missing.
@@ -239,7 +261,9 @@ bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missin
   }
   if (start.isZero()) return false;
   last_end_ = start;
-  begin_ = first_.isZero() ? start : std::min(first_, start);
+  for (std::size_t body = 0; body < bodies_.size(); ++body) was_known_[body] = spans_[body].problem.empty();
+  const ros::Time& since = first_.isZero() ? waits_since_ : first_;
+  begin_ = since.isZero() ? start : std::min(since, start);
   times_.clear();
   for (const PlannedPair& pair : pairs_) {
     const ros::Time known = std::max({begin_, spans_[pair.body_a].first, spans_[pair.body_b].first});
@@ -339,8 +363,11 @@ void TfTracker::continueFrom(TfTracker& other, const std::vector<int>& bodies, c
   rewound_ = other.rewound_;
   late_.swap(other.late_);
   for (std::size_t body = 0; body < bodies.size(); ++body) {
+    added_[body] = last_end_;
     if (bodies[body] < 0) continue;
     const auto before = static_cast<std::size_t>(bodies[body]);
+    added_[body] = other.added_[before];
+    was_known_[body] = other.was_known_[before];
     versions_[body] = other.versions_[before];
     changed_[body] = other.changed_[before];
     too_late_[body].swap(other.too_late_[before]);

@@ -104,6 +104,7 @@ class TfTracker {
   void readHistory(const ros::Time& now, std::vector<std::string>& missing);
   bool hasChanged(std::size_t body) const;
   void findMoving();
+  void rewindNewPairs();
   void rewindLatePairs();
   bool mayRewind(double age);
   void noteFirst();
@@ -156,6 +157,8 @@ class TfTracker {
   // Since the last cycle.
   std::vector<long> versions_;         // per body: of its chain; 0 if it was not known
   std::vector<ros::Time> changed_;     // per body: end of the cycle that saw its chain change; it is not known before
+  std::vector<ros::Time> added_;       // per body: end of the last cycle before it was added to the world
+  std::vector<char> was_known_;        // per body: in the last cycle, or an earlier one
   std::vector<LateTransforms> late_;   // late transforms that contradict cycles
   std::vector<std::string> too_late_;  // per body: why late times cannot be checked again; empty if they can
   double rewind_budget_ = 0.0;         // time that may still be checked again [s]
