@@ -286,6 +286,8 @@ TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
                           "</link><joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin "
                           "xyz='1 0 0'/></joint></robot>");
   expectRefused("check-bag arm.bag --urdf other.urdf --out no", "neither tf nor joint_states is about the robot");
+  write("single.urdf", "<robot name='single'><link name='a'>" + link + "</link></robot>");
+  expectRefused("check-bag arm.bag --urdf single.urdf --out no", "the robot has no other links");
   write("map.yaml", "fixed_frame: map\n");
   expectRefused(check("arm.bag", "no", "--config map.yaml"), "the fixed frame map is neither in tf nor a link");
 }

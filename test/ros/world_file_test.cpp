@@ -81,6 +81,8 @@ TEST(WorldFile, MoveitsText) {
   EXPECT_EQ(mesh.vertices.size(), 3u);
   EXPECT_EQ(mesh.triangles.at(0), Vector3i(0, 1, 2));
   EXPECT_EQ(objects[1].shapes[0].X_BG.translation().z(), 2.0);
+  const std::string nameless = std::string(kScene).substr(std::string(kScene).find('\n'));
+  EXPECT_EQ(parseMoveitScene(nameless).size(), 2u) << "MoveIt writes an empty line";
 }
 
 TEST(WorldFile, MoveitsTextBeforeNoetic) {
@@ -113,6 +115,7 @@ TEST(WorldFile, BadTextIsNamedByItsLine) {
   EXPECT_NE(error("0.5 0 0.25", "0.5 2e8 0.25").find("line 3: a position more than 1e+08 m"), std::string::npos);
   EXPECT_NE(error("\n.\n", "\n").find("the text ends too early: its last line must be a dot"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "").find("it is empty"), std::string::npos);
+  EXPECT_NE(errorOf(".scene", "\n \n").find("the text ends too early"), std::string::npos);
   EXPECT_NE(errorOf(".scene", "name\nbox").find("line 2: expected * and an object's name"), std::string::npos);
   EXPECT_NE(errorOf(".txt", "").find("must end in .yaml, .yml or .scene"), std::string::npos);
   for (std::size_t end = 0; end < std::string(kScene).size() - 2; ++end)

@@ -96,6 +96,8 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   const auto isNamed = [&](const std::string& link) { return tf_frames_.count(link) > 0; };
   if (std::any_of(links.begin(), links.end(), isNamed) || (links.empty() && !tf_topics_.empty())) {
     joint_state_topics_.clear();
+  } else if (links.empty()) {
+    throw std::runtime_error(file_ + ": holds no tf, and the robot has no other links whose joints could move");
   } else {
     requireJointStates("the links are " + someOf(links) +
                        (tf_topics_.empty() ? ", there is no tf" : ", the tf's frames " + someOf(tf_frames_)));

@@ -31,6 +31,13 @@ class Words {
     return first == std::string::npos ? "" : text.substr(first, last - first + 1);
   }
 
+  /// Skips a line, which may be blank. @return false at the end.
+  bool skipLine() {
+    std::string text;
+    ++line_;
+    return static_cast<bool>(std::getline(stream_, text));
+  }
+
   /// Goes to the next line that is not blank, if this one is used up. @return false at the end.
   bool goOn() {
     while ((words_ >> std::ws).eof()) {
@@ -168,8 +175,7 @@ WorldObject readObject(Words& words) {
 std::vector<WorldObject> parseMoveitScene(const std::string& text) {
   Words words(text);
   std::vector<WorldObject> objects;
-  if (!words.goOn()) words.fail("it is empty");
-  words.rest();  // the scene's name
+  if (!words.skipLine()) words.fail("it is empty");  // the scene's name, which may be empty
   for (;;) {
     if (!words.goOn()) words.fail("the text ends too early: its last line must be a dot");
     const std::string mark = words.word();
