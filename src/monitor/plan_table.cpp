@@ -77,8 +77,8 @@ std::string boundLines(const Scene& scene) {
                                           [&](const PlannedPair& pair) { return hasTriangles(scene, pair); });
   return text + sources(bound) + "; triangles decide about " + std::to_string(by_triangles) + " of " +
          std::to_string(scene.pairs.size()) +
-         " pairs\nerror bound of contacts' times and depths: " + fixedText(1e3 * scene.contact_bound.total(), 2) +
-         " mm" + sources(scene.contact_bound) + "\n";
+         " pairs\nerror bound of contacts' times and of depths at the shells' points: " +
+         fixedText(1e3 * scene.contact_bound.total(), 2) + " mm" + sources(scene.contact_bound) + "\n";
 }
 
 }  // namespace

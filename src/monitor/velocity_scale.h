@@ -11,7 +11,9 @@ namespace sdf_ccd {
 struct StoppingPromise {
   double max_speed = 1.0;         ///< V: upper bound of the speed at scale 1 [m/s]
   double max_acceleration = 5.0;  ///< A: upper bound of the rate at which a speed grows, in any direction [m/s²]
-  double deceleration = 2.0;      ///< a: speeds above scale × V decrease at least by this [m/s²]
+  /// a: speeds above scale × V decrease at least by this [m/s²], in any direction, and those below do not come to
+  /// exceed it: while it brakes, a point that is still faster does not turn towards a body.
+  double deceleration = 2.0;
   double reaction_time = 0.1;     ///< R: the robot obeys a scale at most this long after it is published [s]
   double period = 0.1;            ///< P: if no scale comes for this long, the robot acts as on a scale of 0 [s]
   double stop_distance = 0.0;     ///< d: no pair may come closer than this [m]
