@@ -14,10 +14,10 @@ struct StoppingPromise {
   /// a: speeds above scale × V decrease at least by this [m/s²], in any direction, and those below do not come to
   /// exceed it: while it brakes, a point that is still faster does not turn towards a body.
   double deceleration = 2.0;
-  double reaction_time = 0.1;     ///< R: the robot obeys a scale at most this long after it is published [s]
-  double period = 0.1;            ///< P: if no scale comes for this long, the robot acts as on a scale of 0 [s]
-  double stop_distance = 0.0;     ///< d: no pair may come closer than this [m]
-  double max_age = 0.2;           ///< older data counts as unknown [s]
+  double reaction_time = 0.1;  ///< R: the robot obeys a scale at most this long after it is published [s]
+  double period = 0.1;         ///< P: if no scale comes for this long, the robot acts as on a scale of 0 [s]
+  double stop_distance = 0.0;  ///< d: no pair may come closer than this [m]
+  double max_age = 0.2;        ///< older data counts as unknown [s]
 };
 
 /// @throws std::invalid_argument with the name and value of a parameter that is not valid.

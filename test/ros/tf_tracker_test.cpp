@@ -320,6 +320,22 @@ TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   EXPECT_NEAR(spanEnd(1), 10.7, 1e-9);
 }
 
+/// The frame that is known first is not the one whose transforms end first.
+TEST_F(TfTrackerTest, TheFirstCycleBeginsWithTheEarliestTransform) {
+  send(stampedTransform("world", "hand", 10.2, 0.0));
+  EXPECT_EQ(next(10.3), Step::kWaiting);
+  send(stampedTransform("world", "foot", 10.1, 0.0));
+  send(stampedTransform("world", "foot", 10.4, 0.0));
+  send(stampedTransform("world", "hand", 10.4, 0.0));
+  EXPECT_EQ(next(10.4), Step::kWaiting);
+  send(stampedTransform("world", "foot", 10.5, 0.0));
+  send(stampedTransform("world", "hand", 10.5, 0.0));
+  ASSERT_EQ(next(10.5), Step::kCycle);
+  EXPECT_EQ(cycle_.origin, ros::Time(10.1));
+  EXPECT_NEAR(spanStart(0), 10.2, 1e-9);
+  EXPECT_NEAR(spanStart(2), 10.1, 1e-9);
+}
+
 /// At the start no transforms come for 0.6 s, longer than is waited for them; then all do at once.
 TEST_F(TfTrackerTest, WhatComesAfterTheFirstCycleHasBegunIsChecked) {
   EXPECT_EQ(next(10.0), Step::kWaiting);

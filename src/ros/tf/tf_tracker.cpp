@@ -248,8 +248,10 @@ bool TfTracker::mayRewind(double age) {
 
 /// Notes the time since when the first moving frame is known.
 void TfTracker::noteFirst() {
-  const std::optional<std::size_t> earliest = earliestOf(ends_);
-  if (first_.isZero() && earliest) first_ = spans_[*earliest].first;
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    const ros::Time& since = spans_[body].first;
+    if (ends_[body] != ros::TIME_MAX) first_ = first_.isZero() ? since : std::min(first_, since);
+  }
 }
 
 /// Begins the first cycle where all bodies are known or, after some time, all but those that are missing.
