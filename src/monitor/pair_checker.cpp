@@ -274,7 +274,7 @@ void PairChecker::boundHiddenDepths(PairResult& result) const {
       point.enter = std::min(point.enter, interval.enter);
       point.exit = std::max(point.exit, interval.exit);
     }
-    point.depth = std::max(point.depth, 0.0);  // not −0
+    point.depth = 0.0;  // not −0
     point.depth_error = std::max(point.depth_error, hidden);
   };
   if (!(result.deepest.depth > 0.0)) bound(result.deepest);

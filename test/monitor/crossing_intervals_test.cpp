@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "monitor/scene_case.h"
 #include "oracle/random.h"
 
@@ -164,6 +166,7 @@ TEST(HiddenCrossing, IsNoDeeperThanItsErrorWherePointsTouch) {
       const PairResult pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(there)}), {}).pairs[0];
       ASSERT_EQ(pair.verdict, Verdict::kContact);
       if (pair.deepest.depth > 0.0) continue;  // points feel it
+      EXPECT_FALSE(std::signbit(pair.deepest.depth)) << i;
       EXPECT_GE(pair.deepest.depth_error, half) << i;
       ++hidden;
     }
