@@ -50,9 +50,10 @@ class BodyBuilder {
       meshes_.push_back(mesh ? &pool.find(geometry) : nullptr);
       const std::string name = meshes_.back() ? nameOf(*meshes_.back()) : nameOf(primitiveOf(geometry));
       report.geometry += (report.geometry.empty() ? "" : ", ") + name;
-      if (const std::string hint = mesh && !geometry.watertight_voxels ? unitHint(**mesh) : ""; !hint.empty())
+      if (!mesh || geometry.watertight_voxels) continue;
+      if (const std::string hint = unitHint(**mesh); !hint.empty())
         report.warnings.push_back(geometry.source + ": " + hint);
-      const std::string doubt = mesh && !geometry.watertight_voxels ? warningOf(meshes_.back()->quality) : "";
+      const std::string doubt = warningOf(meshes_.back()->quality);
       if (doubt.empty()) continue;
       report.warnings.push_back(geometry.source + ": " + doubt + ": " + summary(meshes_.back()->quality));
       warning_ += (warning_.empty() ? "" : "; ") + geometry.source + ": " + doubt;

@@ -5,6 +5,7 @@
 
 #include "motion/time_at.h"
 #include "pair_bound.h"
+#include "pair_result.h"
 
 namespace sdf_ccd {
 namespace {
@@ -33,19 +34,6 @@ double travelBetween(const RelativeMotion& motion, double from, double to) {
     if (share > 0.0) travel += std::min(1.0, 2.0 * share) * motion.bounds(step).travel;
   }
   return travel;
-}
-
-/// Sets the point's interval to the one that contains its time; adds an interval of zero length if none does.
-void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
-  for (const Interval& interval : intervals) {
-    if (point.time < interval.enter || point.time > interval.exit) continue;
-    point.enter = interval.enter;
-    point.exit = interval.exit;
-    return;
-  }
-  point.enter = point.exit = point.time;
-  intervals.push_back({point.time, point.time});
-  mergeIntervals(intervals, 0.0);
 }
 
 }  // namespace

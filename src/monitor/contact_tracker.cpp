@@ -6,6 +6,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "pair_result.h"
 #include "scene_difference.h"
 
 namespace sdf_ccd {
@@ -15,10 +16,6 @@ using Time = std::chrono::nanoseconds;
 
 Time toTime(double seconds) {
   return Time(std::llround(1e9 * seconds));
-}
-
-bool isWithin(const ContactPoint& point, const Interval& interval) {
-  return interval.enter <= point.time && point.time <= interval.exit;
 }
 
 /// Whether a point proves that the pair touches within the interval: it is deep enough, or the surfaces cross there.
@@ -31,10 +28,6 @@ bool isProved(const PairResult& pair, const Interval& interval) {
   return proves(pair, pair.deepest, interval) ||
          std::any_of(pair.peaks.begin(), pair.peaks.end(),
                      [&](const ContactPoint& point) { return proves(pair, point, interval); });
-}
-
-bool isDeeper(const ContactPoint& a, const ContactPoint& b) {
-  return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
 }
 
 /// The deepest point within the interval; null if none is known.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
+#include "pair_result.h"
 #include "summarise.h"
 
 namespace sdf_ccd {
@@ -61,9 +61,6 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (piece.contact_error.total() > pair.contact_error.total()) pair.contact_error = piece.contact_error;
   pair.skipped &= piece.skipped;
   pair.clearance = piece.clearance;
-  const auto isDeeper = [](const ContactPoint& a, const ContactPoint& b) {
-    return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
-  };
   if (!piece.intervals.empty() && (pair.intervals.empty() || isDeeper(piece.deepest, pair.deepest)))
     pair.deepest = later(piece.deepest, start);
   addFirstTouch(start, piece, pair, known);

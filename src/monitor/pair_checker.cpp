@@ -249,17 +249,12 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
 }
 
 /// Adds a known crossing of the surfaces to the contacts that points feel, and what lasts besides without being felt.
-void PairChecker::addCrossing(const ContactPoint& crossing, PairResult& result) {
+void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
   std::vector<Interval>& intervals = result.intervals;
-  if (intervals.empty()) result.deepest = crossing;
-  const auto holds = [&](const Interval& interval) {
-    return interval.enter <= crossing.time && crossing.time <= interval.exit;
-  };
-  if (std::none_of(intervals.begin(), intervals.end(), holds)) {
-    const auto isLater = [&](const Interval& interval) { return crossing.time < interval.enter; };
-    intervals.insert(std::find_if(intervals.begin(), intervals.end(), isLater), {crossing.time, crossing.time});
-    result.peaks.push_back(crossing);
-  }
+  const std::size_t felt = intervals.size();
+  setTimes(intervals, crossing);
+  if (felt == 0) result.deepest = crossing;
+  if (intervals.size() > felt) result.peaks.push_back(crossing);
   if (surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, intervals, result.peaks);
   boundHiddenDepths(result);
 }
@@ -269,11 +264,7 @@ void PairChecker::boundHiddenDepths(PairResult& result) const {
   const ErrorBound& error = result.contact_error;
   const double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
   const auto bound = [&](ContactPoint& point) {
-    for (const Interval& interval : result.intervals) {
-      if (point.time < interval.enter || interval.exit < point.time) continue;
-      point.enter = std::min(point.enter, interval.enter);
-      point.exit = std::max(point.exit, interval.exit);
-    }
+    setTimes(result.intervals, point);
     point.depth = 0.0;  // not −0
     point.depth_error = std::max(point.depth_error, hidden);
   };

@@ -81,7 +81,7 @@ class PairChecker {
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
   void boundHiddenDepths(PairResult& result) const;
-  void addCrossing(const ContactPoint& crossing, PairResult& result);
+  void addCrossing(ContactPoint crossing, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;

@@ -1,5 +1,7 @@
 #include "pair_result.h"
 
+#include <tuple>
+
 namespace sdf_ccd {
 
 void clear(PairResult& result) {
@@ -24,6 +26,26 @@ void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
   result.skipped = true;
   result.error = error;
   result.clearance = clearance;
+}
+
+bool isWithin(const ContactPoint& point, const Interval& interval) {
+  return interval.enter <= point.time && point.time <= interval.exit;
+}
+
+bool isDeeper(const ContactPoint& a, const ContactPoint& b) {
+  return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
+}
+
+void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
+  for (const Interval& interval : intervals) {
+    if (!isWithin(point, interval)) continue;
+    point.enter = interval.enter;
+    point.exit = interval.exit;
+    return;
+  }
+  point.enter = point.exit = point.time;
+  intervals.push_back({point.time, point.time});
+  mergeIntervals(intervals, 0.0);
 }
 
 void setNotChecked(const std::string& reason, PairResult& result) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -11,6 +12,15 @@ void clear(PairResult& result);
 
 /// Sets the result of a pair that is clear without a test. @param clearance  lower bound of its distance [m].
 void setSkipped(const ErrorBound& error, double clearance, PairResult& result);
+
+/// Whether a point is deepest within the interval.
+bool isWithin(const ContactPoint& point, const Interval& interval);
+
+/// Of two points of the same depth, the one whose error is larger may be deeper.
+bool isDeeper(const ContactPoint& a, const ContactPoint& b);
+
+/// Sets the point's interval to the one that contains its time; adds an interval of zero length if none does.
+void setTimes(std::vector<Interval>& intervals, ContactPoint& point);
 
 void setNotChecked(const std::string& reason, PairResult& result);
 

@@ -164,7 +164,9 @@ std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_e
   const double share = std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0);
   const Separation found = during(first, share, share, motion_error, memory);
   if (found.state != SeparationState::kCrossing) return std::nullopt;
-  return contactAt(found, first, share);
+  ContactPoint contact = contactAt(found, first, share);
+  contact.time = contact.enter = contact.exit = time;  // without the rounding of its share
+  return contact;
 }
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {

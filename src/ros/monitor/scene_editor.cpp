@@ -190,9 +190,9 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
     response.adopt_seconds = secondsSince(ready);
     response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
     response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
+    const std::vector<std::string>& made = world->snapshot->warnings;
+    sources.warnings.insert(sources.warnings.end(), made.begin(), made.end());
   }
-  if (!request.changes.empty())
-    sources.warnings.insert(sources.warnings.end(), world->snapshot->warnings.begin(), world->snapshot->warnings.end());
   for (const std::string& warning : sources.warnings) response.message += warning + "\n";
   response.success = true;
 }
