@@ -13,7 +13,7 @@ generate_dynamic_reconfigure_options(cfg/CollisionMonitor.cfg cfg/VelocityScale.
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES sdf_ccd_core sdf_ccd_robot sdf_ccd_dynamics
-  CATKIN_DEPENDS geometry_msgs message_runtime shape_msgs std_msgs std_srvs trajectory_msgs
+  CATKIN_DEPENDS dynamic_reconfigure geometry_msgs message_runtime shape_msgs std_msgs std_srvs trajectory_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS sdf_ccd_targets.cmake)
 

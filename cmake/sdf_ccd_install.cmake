@@ -21,6 +21,7 @@ else()
   configure_package_config_file(cmake/sdf_ccdConfig.cmake.in ${PROJECT_BINARY_DIR}/sdf_ccdConfig.cmake
     INSTALL_DESTINATION ${config_dir})
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/sdf_ccdConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  #catkin_lint: ignore_once missing_file
   install(FILES ${PROJECT_BINARY_DIR}/sdf_ccdConfig.cmake ${PROJECT_BINARY_DIR}/sdf_ccdConfigVersion.cmake
     cmake/sdf_ccd_targets.cmake DESTINATION ${config_dir})
 endif()

@@ -7,6 +7,7 @@ if(SDF_CCD_ROS_SOURCES)
   add_library(sdf_ccd_ros SHARED ${SDF_CCD_ROS_SOURCES})
   add_dependencies(sdf_ccd_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
   target_include_directories(sdf_ccd_ros PUBLIC src)
+  #catkin_lint: ignore_once external_interface_path
   target_include_directories(sdf_ccd_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
   target_link_libraries(sdf_ccd_ros sdf_ccd_robot sdf_ccd_dynamics fmt::fmt ${catkin_LIBRARIES} ${SDF_CCD_YAML})
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
@@ -22,7 +23,6 @@ install(TARGETS sdf_ccd_fetch RUNTIME DESTINATION ${SDF_CCD_LIB_DIR}/sdf_ccd)
 # The command line tool reads and writes bags where ROS is there.
 file(GLOB SDF_CCD_BAG_SOURCES CONFIGURE_DEPENDS src/tools/ros/*.cpp)
 target_sources(sdf_ccd_tool PRIVATE ${SDF_CCD_BAG_SOURCES})
-target_include_directories(sdf_ccd_tool PRIVATE src/tools)
 target_link_libraries(sdf_ccd_tool sdf_ccd_ros)
 target_compile_definitions(sdf_ccd_tool PRIVATE SDF_CCD_WITH_ROS)
 

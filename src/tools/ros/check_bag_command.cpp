@@ -9,7 +9,6 @@
 #include <console_bridge/console.h>
 #include <fmt/format.h>
 
-#include "commands.h"
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
@@ -17,12 +16,13 @@
 #include "monitor/over_budget.h"
 #include "monitor_config.h"
 #include "monitor_scene.h"
-#include "progress_bar.h"
 #include "ros/bag/bag_check.h"
 #include "ros/bag/checked_bag.h"
 #include "ros/bag/pair_coverage.h"
-#include "scene_output.h"
-#include "threads_option.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
+#include "tools/scene_output.h"
+#include "tools/threads_option.h"
 
 namespace sdf_ccd::tools {
 namespace {

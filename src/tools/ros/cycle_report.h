@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cycle_statistics.h"
-#include "output_file.h"
+#include "tools/output_file.h"
 
 namespace sdf_ccd::tools {
 

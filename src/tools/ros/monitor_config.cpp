@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "read_text.h"
 #include "ros/parameters/yaml_parameters.h"
+#include "tools/read_text.h"
 
 namespace sdf_ccd::tools {
 namespace {

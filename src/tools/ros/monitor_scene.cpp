@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "prepare_scene.h"
+#include "tools/prepare_scene.h"
 
 namespace sdf_ccd::tools {
 

@@ -5,10 +5,10 @@
 
 #include <rosbag/view.h>
 
-#include "commands.h"
 #include "cycle_report.h"
-#include "progress_bar.h"
 #include "ros/bag/read_bag.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
 
 namespace sdf_ccd::tools {
 namespace {
