@@ -15,8 +15,6 @@
 namespace sdf_ccd {
 namespace {
 
-const char* const kRigidlyJoined = "rigidly joined";
-
 bool isProved(const std::string& reason) {
   return reason == kRigidlyJoined || reason == kOutOfReach;
 }

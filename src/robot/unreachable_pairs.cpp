@@ -7,11 +7,13 @@
 #include "common/number_text.h"
 #include "geometry_extent.h"
 #include "motion/screw_motion.h"
+#include "motion/two_body_motion.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
 
 const char* const kOutOfReach = "out of reach";
+const char* const kRigidlyJoined = "rigidly joined";
 
 namespace {
 
@@ -48,18 +50,33 @@ std::string beyondReach(const RobotModel::Slide& slide, double position) {
          numberText(slide.high) + "]; it is at " + numberText(position);
 }
 
-std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene) {
+bool areJoinedAt(const Isometry3d& X_AB, const Isometry3d& expected) {
+  constexpr double kMoved = 1e-3, kTurned = 1e-3;  // calibrated robots differ by less from their URDF [m, rad]
+  return (X_AB.translation() - expected.translation()).norm() <= kMoved &&
+         (X_AB.linear() - expected.linear()).norm() <= kTurned;
+}
+
+std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std::vector<BodyDescription>& bodies,
+                                              const std::vector<AllowedPair>& allowed, const std::string& prefix) {
+  const std::vector<Isometry3d> X_RL = robot.forwardKinematics({});
+  std::map<std::string, Isometry3d> X_RF;
+  for (std::size_t i = 0; i < X_RL.size(); ++i) X_RF[prefix + robot.links()[i]] = X_RL[i];
   std::map<std::string, int> index;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) index[scene.bodies[i].name] = static_cast<int>(i);
-  const auto linkOf = [&](int body) { return scene.bodies[body].is_world ? robot.root() : scene.bodies[body].name; };
+  for (std::size_t i = 0; i < bodies.size(); ++i) index[bodies[i].name] = static_cast<int>(i);
+  const auto linkOf = [&](int body) { return bodies[body].is_world ? robot.root() : bodies[body].name; };
   std::vector<UnreachablePair> pairs;
-  for (const AllowedPair& allowed : scene.allowed) {
-    if (allowed.reason != kOutOfReach) continue;
+  for (const AllowedPair& left_out : allowed) {
     UnreachablePair pair;
-    pair.body_a = index.at(allowed.body_a);
-    pair.body_b = index.at(allowed.body_b);
-    pair.ball_a = ballOf(scene.bodies[pair.body_a]);
-    pair.ball_b = ballOf(scene.bodies[pair.body_b]);
+    pair.body_a = index.at(left_out.body_a);
+    pair.body_b = index.at(left_out.body_b);
+    const BodyDescription &a = bodies[pair.body_a], &b = bodies[pair.body_b];
+    if (left_out.reason == kRigidlyJoined && X_RF.count(a.frame) > 0 && X_RF.count(b.frame) > 0) {
+      pair.X_AB = relativePose(X_RF[a.frame] * a.X_frame_B, X_RF[b.frame] * b.X_frame_B);
+      pairs.push_back(std::move(pair));
+    }
+    if (left_out.reason != kOutOfReach) continue;
+    pair.ball_a = ballOf(a);
+    pair.ball_b = ballOf(b);
     pair.slides = robot.slidesBetween(linkOf(pair.body_a), linkOf(pair.body_b));
     pairs.push_back(std::move(pair));
   }
@@ -87,7 +104,16 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
   for (const UnreachablePair& pair : pairs) {
     const int a = pair.body_a, b = pair.body_b;
     if (!is_moved[a] && !is_moved[b]) continue;
-    bool may_meet = !motion.missing[a].empty() || !motion.missing[b].empty();
+    const bool is_known = motion.missing[a].empty() && motion.missing[b].empty();
+    if (pair.X_AB) {
+      bool are_joined = is_known;
+      for (std::size_t i = 0; i < motion.times.size() && are_joined; ++i)
+        are_joined = areJoinedAt(relativePose(motion.pose(a, i), motion.pose(b, i)), *pair.X_AB);
+      if (!are_joined)
+        unchecked.push_back({a, b, std::string(kRigidlyJoined) + " in the URDF, but not in these poses"});
+      continue;
+    }
+    bool may_meet = !is_known;
     for (std::size_t i = 1; i < motion.times.size() && !may_meet; ++i) {
       const ScrewMotion X_WA(motion.pose(a, i - 1), motion.pose(a, i)), X_WB(motion.pose(b, i - 1), motion.pose(b, i));
       may_meet = !(leastDistance(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >

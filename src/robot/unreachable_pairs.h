@@ -9,8 +9,11 @@
 
 namespace sdf_ccd {
 
-/// The reason that describeRobot() and disableUnreachable() give.
-extern const char* const kOutOfReach;
+/// The reasons that describeRobot() and disableUnreachable() give.
+extern const char *const kOutOfReach, *const kRigidlyJoined;
+
+/// Whether two poses of bodies that are rigidly joined are the same, but for rounding and calibration.
+bool areJoinedAt(const Isometry3d& X_AB, const Isometry3d& expected);
 
 /// Why pairs that assume this range are not out of reach with the joint at this position; empty if they are.
 std::string beyondReach(const RobotModel::Slide& slide, double position);
@@ -20,8 +23,8 @@ std::string beyondReach(const RobotModel::Slide& slide, double position);
 std::vector<UncheckedPair> reachableAlong(const RobotModel& robot, const PlannedJoints& plan,
                                           const std::vector<UnreachablePair>& pairs);
 
-/// The pairs whose balls may meet, if bodies move independently of joints. Conservative: for two balls that pass each
-/// other only the lengths of their displacements are used.
+/// The pairs whose balls may meet, or that are not where they are rigidly joined, if bodies move independently of
+/// joints. Conservative: for two balls that pass each other only the lengths of their displacements are used.
 /// @param is_moved  per body; pairs without such a body are skipped.
 std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::vector<bool>& is_moved,
                                           const std::vector<UnreachablePair>& pairs);

@@ -156,6 +156,11 @@ std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const L
     seen[p].is_rigid =
         robot.rigidlyJoined(scene.bodies[scene.pairs[p].body_a].name, scene.bodies[scene.pairs[p].body_b].name);
   }
+  // States between two in which a pair is closer than the bound may touch.
+  const auto judge = [bound = scene.contact_bound.total()](const PairResult& pair) {
+    const bool is_close = pair.verdict == Verdict::kClear && pair.clearance <= bound;
+    return is_close ? Verdict::kUncertain : pair.verdict;
+  };
   States states(robot, options);
   while (!states.atEnd()) {
     if (options.progress) options.progress("states", states.share());
@@ -166,7 +171,7 @@ std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const L
     if (open.empty()) break;
     // The first update comes early: most pairs that touch in some states do so in the first ones.
     const std::vector<JointPositions> round = states.take(is_default ? 1 : kRound);
-    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, round);
+    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, round, judge);
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
       Seen& pair = seen[open[i % open.size()]];
       pair.touch |= verdicts[i] == Verdict::kContact;

@@ -26,6 +26,13 @@ std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene
   return text;
 }
 
+/// Whether surfaces are too close to be told apart, as those that joints hold together. Where nothing is known of the
+/// inside, as in an open mesh, the error is larger.
+bool touch(const PairResult& pair) {
+  constexpr double kTouch = 1e-3;  // [m]
+  return pair.verdict == Verdict::kUncertain && pair.error.total() <= kTouch;
+}
+
 }  // namespace
 
 std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Scene& scene, std::size_t states) {
@@ -41,17 +48,16 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     if (linkOf(scene.pairs[p].body_a) >= 0 && linkOf(scene.pairs[p].body_b) >= 0) tested.push_back(p);
   if (tested.empty()) return {};
 
-  // Joints hold neighbours at small distances: what is too close to be told apart counts as overlapping.
-  const auto overlap = [&](std::size_t p, Verdict verdict) {
-    if (verdict != Verdict::kUncertain) return verdict == Verdict::kContact;
-    const PlannedPair& pair = scene.pairs[p];
-    return robot.neighbours(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+  const auto judge = [&](const PairResult& pair) {
+    const std::string &a = scene.bodies[pair.body_a].name, &b = scene.bodies[pair.body_b].name;
+    return pair.verdict == Verdict::kContact || (touch(pair) && robot.neighbours(a, b)) ? Verdict::kContact
+                                                                                        : Verdict::kClear;
   };
   std::vector<OverlappingPair> found;
-  const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions());
+  const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions(), judge);
   std::vector<std::size_t> open;  // of scene.pairs
   for (std::size_t k = 0; k < tested.size(); ++k) {
-    if (!overlap(tested[k], at_rest[k].verdict)) continue;
+    if (at_rest[k].verdict != Verdict::kContact) continue;
     const PlannedPair& pair = scene.pairs[tested[k]];
     const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
     found.push_back({static_cast<int>(tested[k]), at_rest[k].depth, false});
@@ -67,12 +73,12 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     std::vector<JointPositions> positions;
     for (std::size_t i = 0; i < round; ++i) positions.push_back(sampler.next());
     drawn += round;
-    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, positions);
+    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, positions, judge);
     std::vector<std::size_t> still_open;
     for (std::size_t k = 0; k < open.size(); ++k) {
-      bool touches = true;
-      for (std::size_t i = 0; i < round; ++i) touches = touches && overlap(open[k], verdicts[i * open.size() + k]);
-      if (touches) still_open.push_back(open[k]);
+      bool overlap = true;
+      for (std::size_t i = 0; i < round; ++i) overlap &= verdicts[i * open.size() + k] == Verdict::kContact;
+      if (overlap) still_open.push_back(open[k]);
     }
     open = std::move(still_open);
   }

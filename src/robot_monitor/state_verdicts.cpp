@@ -7,8 +7,6 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "sdf_ccd/monitor/monitor.h"
-
 namespace sdf_ccd {
 namespace {
 
@@ -18,8 +16,7 @@ constexpr double kAnyTime = 1.0;  // duration of the resting motion [s]
 class StateTester {
  public:
   /// @param scene  all of its pairs must be of links.
-  StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene)
-      : robot_(robot), monitor_(scene, {}), bound_(scene->contact_bound.total()) {
+  StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene) : robot_(robot), monitor_(scene, {}) {
     for (const Body& body : scene->bodies) {
       const auto& links = robot.links();
       links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.name) - links.begin()));
@@ -40,16 +37,9 @@ class StateTester {
     return monitor_.run(motion_, request).pairs;
   }
 
-  /// The pair's verdict; UNCERTAIN also if it is CLEAR, but closer than the bound.
-  Verdict verdict(const PairResult& pair) const {
-    const bool is_close = pair.verdict == Verdict::kClear && pair.clearance <= bound_;
-    return is_close ? Verdict::kUncertain : pair.verdict;
-  }
-
  private:
   const RobotModel& robot_;
   Monitor monitor_;
-  double bound_;                    // [m]
   std::vector<std::size_t> links_;  // per body
   CycleMotion motion_;
 };
@@ -64,16 +54,16 @@ std::shared_ptr<const Scene> sceneOf(const Scene& scene, const std::vector<std::
 }  // namespace
 
 std::vector<PairAtRest> pairsIn(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
-                                const JointPositions& state) {
+                                const JointPositions& state, const Judge& judge) {
   StateTester tester(robot, sceneOf(scene, pairs));
   std::vector<PairAtRest> states;
   for (const PairResult& pair : tester.test(state, true))
-    states.push_back({tester.verdict(pair), pair.intervals.empty() ? 0.0 : std::max(0.0, pair.deepest.depth)});
+    states.push_back({judge(pair), pair.intervals.empty() ? 0.0 : std::max(0.0, pair.deepest.depth)});
   return states;
 }
 
 std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, const std::vector<std::size_t>& pairs,
-                                const std::vector<JointPositions>& states) {
+                                const std::vector<JointPositions>& states, const Judge& judge) {
   const std::shared_ptr<const Scene> reduced = sceneOf(scene, pairs);
   std::vector<Verdict> verdicts(pairs.size() * states.size());
   tbb::enumerable_thread_specific<std::unique_ptr<StateTester>> testers;
@@ -83,7 +73,7 @@ std::vector<Verdict> verdictsOf(const RobotModel& robot, const Scene& scene, con
       std::unique_ptr<StateTester>& tester = testers.local();
       if (!tester) tester = std::make_unique<StateTester>(robot, reduced);
       Verdict* verdict = &verdicts[state * pairs.size()];
-      for (const PairResult& pair : tester->test(states[state], false)) *verdict++ = tester->verdict(pair);
+      for (const PairResult& pair : tester->test(states[state], false)) *verdict++ = judge(pair);
     });
   });
   return verdicts;

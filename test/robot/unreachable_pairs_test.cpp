@@ -22,7 +22,7 @@ class UnreachablePairsTest : public ::testing::Test {
   UnreachablePairsTest() : robot_(kRail) {
     std::vector<std::string> warnings;
     scene_ = describeRobot(robot_, {}, {}, {}, warnings);
-    pairs_ = unreachablePairs(robot_, scene_);
+    pairs_ = unreachablePairs(robot_, scene_.bodies, scene_.allowed);
   }
 
   std::vector<UncheckedPair> along(double from, double to) const {
@@ -76,6 +76,39 @@ TEST_F(UnreachablePairsTest, AreUncheckedWherePosesMayBringThemTogether) {
   motion.missing[0] = "no transform";
   EXPECT_TRUE(may(3.0, 2.0));
   EXPECT_TRUE(reachableAlong(motion, {false, false}, pairs_).empty());
+}
+
+TEST(RigidlyJoinedPairs, AreUncheckedWherePosesMoveThem) {
+  const RobotModel robot(R"(<robot name='r'>
+    <link name='world'/>
+    <link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+    <joint name='stands' type='fixed'><parent link='world'/><child link='base'/><origin xyz='0 0 1'/></joint>
+    </robot>)");
+  std::vector<std::string> warnings;
+  SceneDescription scene = describeRobot(robot, {}, {}, {}, warnings);
+  BodyDescription table;
+  table.name = "table";
+  table.frame = "world";
+  table.X_frame_B.translation() = Vector3d(3.0, 0.0, 0.0);
+  table.geometry.emplace_back();
+  table.geometry.back().shape = Primitive(Box{{0.1, 0.1, 0.1}});
+  table.is_world = true;
+  scene.bodies.push_back(table);
+  disableUnreachable(robot, scene);
+  const std::vector<UnreachablePair> pairs = unreachablePairs(robot, scene.bodies, scene.allowed);
+  ASSERT_EQ(pairs.size(), 1u);
+  ASSERT_TRUE(pairs[0].X_AB);
+  EXPECT_TRUE(pairs[0].X_AB->translation().isApprox(Vector3d(3.0, 0.0, -1.0)));
+  CycleMotion motion;
+  motion.times = {0.0, 1.0};
+  motion.missing.resize(2);
+  motion.X_WB = {{Isometry3d(Eigen::Translation3d(0, 0, 1))}, {Isometry3d(Eigen::Translation3d(3, 0, 0))}};
+  EXPECT_TRUE(reachableAlong(motion, {true, false}, pairs).empty());
+  motion.X_WB[0].push_back(Isometry3d(Eigen::Translation3d(3, 0, 0)));
+  const std::vector<UncheckedPair> unchecked = reachableAlong(motion, {true, false}, pairs);
+  ASSERT_EQ(unchecked.size(), 1u);
+  EXPECT_EQ(unchecked[0].reason, "rigidly joined in the URDF, but not in these poses");
+  EXPECT_TRUE(reachableAlong(motion, {false, false}, pairs).empty());
 }
 
 }  // namespace

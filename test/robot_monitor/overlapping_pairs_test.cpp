@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <map>
+#include <set>
 
 #include "sdf_ccd/robot/robot_scene.h"
 
@@ -11,6 +12,15 @@ namespace {
 
 Resource noResource(const std::string& uri) {
   throw std::runtime_error("no " + uri);
+}
+
+/// A box of 0.6 x 0.6 x 0.4 m without its top.
+Resource binWithoutTop(const std::string&) {
+  return {
+      "v -0.3 -0.3 -0.2\nv 0.3 -0.3 -0.2\nv 0.3 0.3 -0.2\nv -0.3 0.3 -0.2\n"
+      "v -0.3 -0.3 0.2\nv 0.3 -0.3 0.2\nv 0.3 0.3 0.2\nv -0.3 0.3 0.2\n"
+      "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+      "bin.obj", ""};
 }
 
 std::string box(const std::string& link, const std::string& size, const std::string& xyz = "0 0 0") {
@@ -111,19 +121,53 @@ TEST(OverlappingPairs, StayIfThatIsWanted) {
   EXPECT_TRUE(cart.has("base wheel"));
 }
 
-/// On a base without a shape, an arm turns 1 mm above the chassis, and through the mast.
-TEST(OverlappingPairs, OnlyWhatIsAlwaysCloseIsLeftOutBesideAJoint) {
-  const RobotModel robot("<robot name='turret'><link name='base'/>" + box("chassis", "1 1 0.1", "0 0 0.05") +
-                         joint("base", "chassis", "fixed", "0 0 0") + box("mast", "0.05 0.05 1", "0 0 0.5") +
-                         joint("base", "mast", "fixed", "0.4 0 0.1") + box("arm", "0.5 0.05 0.05", "0.25 0 0") +
-                         joint("base", "arm", "continuous", "0 0 0.126", "0 0 1") + "</robot>");
+/// Bodies of a robot between which are only links without shapes, as "a b", that stay.
+std::set<std::string> checkedPairs(const std::string& urdf) {
+  const RobotModel robot(urdf);
   std::vector<std::string> warnings;
-  const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+  const SceneDescription description = describeRobot(robot, {}, binWithoutTop, {}, warnings);
   Scene scene = buildScene(description, planScene(description), coarse());
   leaveOutOverlapping(robot, {}, scene);
-  ASSERT_EQ(scene.pairs.size(), 1u);
-  EXPECT_EQ(scene.bodies[scene.pairs[0].body_a].name, "arm");
-  EXPECT_EQ(scene.bodies[scene.pairs[0].body_b].name, "mast");
+  std::set<std::string> names;
+  for (const PlannedPair& pair : scene.pairs)
+    names.insert(scene.bodies[pair.body_a].name + " " + scene.bodies[pair.body_b].name);
+  return names;
+}
+
+/// On a base without a shape, an arm turns on the chassis, which it touches, and through the mast.
+TEST(OverlappingPairs, OnlyWhatAlwaysTouchesIsLeftOutBesideAJoint) {
+  EXPECT_EQ(checkedPairs("<robot name='turret'><link name='base'/>" + box("chassis", "1 1 0.1", "0 0 0.05") +
+                         joint("base", "chassis", "fixed", "0 0 0") + box("mast", "0.05 0.05 1", "0 0 0.5") +
+                         joint("base", "mast", "fixed", "0.4 0 0.1") + box("arm", "0.5 0.05 0.05", "0.25 0 0") +
+                         joint("base", "arm", "continuous", "0 0 0.125", "0 0 1") + "</robot>"),
+            std::set<std::string>({"arm mast"}));
+}
+
+/// Fingers 0 to 10 mm apart, and 10 mm from the palm, on an arm so large that its contacts have a bound of 22 mm.
+TEST(OverlappingPairs, OfSmallLinksOnALargeRobotStayToo) {
+  const std::string limits = "'><limit lower='-0.001' upper='0.005' effort='1' velocity='1'/>";
+  const auto finger = [&](const std::string& name, double side) {
+    const std::string y = std::to_string(side);
+    return box(name, "0.01 0.01 0.04", "0 " + std::to_string(0.005 * side) + " 0.025") + "<joint name='j_" + name +
+           "' type='prismatic" + limits + "<parent link='palm'/><child link='" + name + "'/><axis xyz='0 " + y +
+           " 0'/></joint>";
+  };
+  const std::set<std::string> checked =
+      checkedPairs("<robot name='gripper'>" + box("base", "0.8 0.15 0.15", "0.4 0 0") + "<link name='palm'/>" +
+                   joint("base", "palm", "revolute", "0.85 0 0") + box("shell", "0.02 0.06 0.03", "0 0 -0.02") +
+                   joint("palm", "shell", "fixed", "0 0 0") + finger("left", 1.0) + finger("right", -1.0) + "</robot>");
+  EXPECT_EQ(checked.count("left right") + checked.count("right left"), 1u);
+  EXPECT_EQ(checked.count("left shell") + checked.count("shell left"), 1u);
+}
+
+/// An arm turns in a bin of sheet metal, through whose walls it comes at the end.
+TEST(OverlappingPairs, NeighboursInOpenMeshesStay) {
+  const std::set<std::string> checked = checkedPairs(
+      "<robot name='picker'><link name='base'/><link name='bin'><collision><geometry><mesh "
+      "filename='bin.obj'/></geometry></collision></link>" +
+      joint("base", "bin", "fixed", "0 0 0") + box("arm", "0.02 0.02 0.05") +
+      joint("base", "arm", "continuous", "0 0 0", "0 0 1") + "</robot>");
+  EXPECT_EQ(checked, std::set<std::string>({"arm bin"}));
 }
 
 TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {

@@ -85,7 +85,7 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
   described.unreachable = {
-      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}}};  // of each other, although they are close
+      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}, {}}};  // of each other, although they are close
   loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);

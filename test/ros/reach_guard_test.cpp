@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
@@ -68,6 +70,82 @@ TEST_F(ReachGuardTest, WhereTfHasThemNearEachOtherTheyAreNotChecked) {
   EXPECT_EQ(said.pairs[0].body_b, "right");
   EXPECT_NE(said.pairs[0].reason.find("out of reach according to the URDF, but close to each other in tf"),
             std::string::npos);
+}
+
+/// In the URDF the base stands in the world for good. An arm turns on it; its tool is checked against a wall. A table
+/// stands in the world, and a floor, above which the arm turns.
+class FixedBaseTest : public ::testing::Test {
+ protected:
+  FixedBaseTest() {
+    MonitorParameters parameters = parseParameters({}, "~");
+    const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+    parameters.urdf =
+        "<robot name='r'><link name='world'/><link name='base'>" + ball + "</link><link name='arm'>" + ball +
+        "</link><link name='tool'>" + ball +
+        "</link><joint name='stands' type='fixed'><parent link='world'/><child link='base'/></joint>"
+        "<joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin xyz='0 0 0.5'/><axis "
+        "xyz='0 0 1'/></joint><joint name='holds' type='fixed'><parent link='arm'/><child link='tool'/><origin "
+        "xyz='0.5 0 0'/></joint></robot>";
+    parameters.scene.cache_directory.clear();
+    const auto add = [&](const std::string& name, const std::string& frame, const Vector3d& half, const Vector3d& at) {
+      WorldObject object;
+      object.name = name;
+      object.frame = frame;
+      object.shapes = {{Primitive(Box{half})}};
+      object.X_frame_B.translation() = at;
+      parameters.world.push_back(object);
+    };
+    add("wall", "elsewhere", {0.1, 0.1, 0.1}, Vector3d::Zero());
+    add("table", "world", {0.1, 0.1, 1.0}, {3.0, 0.0, 0.0});
+    add("floor", "world", {5.0, 5.0, 0.1}, {0.0, 0.0, -2.0});
+    parameters.pairs.allowed = {{"wall", "base"}, {"wall", "arm"}};
+    described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
+    loop_ =
+        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+    loop_->history().add(
+        message({stampedTransform("world", "elsewhere", time_, 50.0), stampedTransform("arm", "tool", time_, 0.5)}),
+        true);
+  }
+
+  /// What is not checked, as "arm - table: reason", if tf has the base at x.
+  std::set<std::string> uncheckedWithBaseAt(double x) {
+    TfTracker::Step step = TfTracker::Step::kWaiting;
+    for (int i = 0; i < 5 && step != TfTracker::Step::kCycle; ++i) {
+      loop_->history().add(message({stampedTransform("world", "base", time_, x),
+                                    stampedTransform("base", "arm", ros::Time(time_), Quaterniond::Identity(),
+                                                     Vector3d(0.0, 0.0, 0.5))}),
+                           false);
+      step = loop_->step(ros::Time(time_), {});
+      time_ += 0.05;
+    }
+    std::set<std::string> unchecked;
+    for (const PairContact& pair : toContactArray(*loop_).pairs)
+      unchecked.insert(pair.body_a + " - " + pair.body_b + ": " + pair.reason);
+    return unchecked;
+  }
+
+  DescribedScene described_;
+  std::unique_ptr<MonitorLoop> loop_;
+  double time_ = 100.0;
+};
+
+TEST_F(FixedBaseTest, WhatTheUrdfFixesAndTfDoesNotMoveIsClear) {
+  ASSERT_EQ(loop_->scene().pairs.size(), 1u) << "tool and wall";
+  EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>());
+  EXPECT_EQ(uncheckedWithBaseAt(5e-4), std::set<std::string>()) << "calibrated";
+}
+
+/// tf takes the base to the table. The floor is out of reach as before.
+TEST_F(FixedBaseTest, WhatTfMovesIsNotChecked) {
+  uncheckedWithBaseAt(0.0);
+  const std::string out =
+      ": out of reach according to the URDF, but close to each other in tf: do the URDF and tf belong "
+      "to the same robot?";
+  const std::string moved = ": rigidly joined in the URDF, but not in tf: do they belong to the same robot?";
+  EXPECT_EQ(uncheckedWithBaseAt(2.6),
+            (std::set<std::string>{"base - table" + moved, "base - floor" + moved, "tool - table" + out}));
+  EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>()) << "back again";
 }
 
 }  // namespace

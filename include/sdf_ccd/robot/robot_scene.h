@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,7 +65,7 @@ struct RobotSceneOptions {
 /// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
 /// that are rigidly joined, disabled by the SRDF, adjacent (unless requested, or enabled by the SRDF by name), and out
 /// of reach of each other for all joint positions, by RobotModel::reach() between balls around their geometry. The
-/// assumptions of the latter must be monitored: unreachablePairs().
+/// assumptions of the first and the last must be monitored: unreachablePairs().
 /// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
 /// robot's name or with links that the robot does not have; RobotModel::warnings(). Failures are not repeated here.
 /// @throws std::length_error if the links are more than 300,000 pairs; Cancelled.
@@ -76,14 +77,19 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
 /// added to `scene`.
 void disableUnreachable(const RobotModel& robot, SceneDescription& scene);
 
-/// A pair that is left out of a scene because its bodies never meet, and the assumptions of this.
+/// A pair that is left out of a scene because its bodies never meet, or never move relative to each other, and the
+/// assumptions of this.
 struct UnreachablePair {
   int body_a = -1, body_b = -1;           ///< in SceneDescription::bodies
   BoundingBall ball_a, ball_b;            ///< contain the geometry, in the body's frame; infinite for half-spaces
   std::vector<RobotModel::Slide> slides;  ///< prismatic joints between them, which must stay in their ranges
+  std::optional<Isometry3d> X_AB;         ///< of a pair that is rigidly joined; the other members are then not set
 };
 
-/// @param scene  with all pairs allowed that will be.
-std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const SceneDescription& scene);
+/// @param bodies   of the scene.
+/// @param allowed  all that will be, or some of them.
+/// @param prefix   of the frames of links, where these are not the links' names.
+std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std::vector<BodyDescription>& bodies,
+                                              const std::vector<AllowedPair>& allowed, const std::string& prefix = {});
 
 }  // namespace sdf_ccd

@@ -5,7 +5,8 @@
 namespace sdf_ccd {
 
 void PairCoverage::add(const TrackedCycle& cycle, const CycleResult& result, std::size_t pairs) {
-  total_ += (cycle.end - (cycle.start == end_ ? cycle.start : cycle.origin)).toSec();
+  const double seconds = (cycle.end - (cycle.start == end_ ? cycle.start : cycle.origin)).toSec();
+  total_ += seconds;
   end_ = cycle.end;
   pairs_.resize(pairs);
   for (std::size_t p = 0; p < pairs; ++p) {
@@ -14,6 +15,22 @@ void PairCoverage::add(const TrackedCycle& cycle, const CycleResult& result, std
     pairs_[p].was_checked = true;
     pairs_[p].seconds += cycle.motion.times[pair.span.last] - cycle.motion.times[pair.span.first];
   }
+  for (std::size_t p = pairs; p < result.pairs.size(); ++p) {
+    const PairResult& pair = result.pairs[p];
+    const auto isSame = [&](const Doubtful& d) { return d.body_a == pair.body_a && d.body_b == pair.body_b; };
+    auto found = std::find_if(doubtful_.begin(), doubtful_.end(), isSame);
+    if (found == doubtful_.end()) found = doubtful_.insert(found, {pair.body_a, pair.body_b, 0.0});
+    found->seconds += seconds;
+  }
+}
+
+std::vector<PairCoverage::Doubtful> PairCoverage::doubtful(double tolerated) const {
+  std::vector<Doubtful> longer;
+  for (const Doubtful& pair : doubtful_)
+    if (pair.seconds > tolerated) longer.push_back(pair);
+  std::stable_sort(longer.begin(), longer.end(),
+                   [](const Doubtful& a, const Doubtful& b) { return a.seconds > b.seconds; });
+  return longer;
 }
 
 std::size_t PairCoverage::neverChecked() const {

@@ -10,7 +10,7 @@
 
 namespace sdf_ccd {
 
-/// For how much of the time of all cycles each pair was checked.
+/// For how much of the time of all cycles each pair was checked, and those left out were rightly so.
 class PairCoverage {
  public:
   /// @param pairs  the number of the scene's pairs, which come first in the result.
@@ -29,12 +29,22 @@ class PairCoverage {
   };
   Partly partlyChecked(double tolerated) const;
 
+  /// A pair that was left out, but for a time not rightly so: the result had it as NOT_CHECKED.
+  struct Doubtful {
+    int body_a = -1, body_b = -1;
+    double seconds = 0.0;
+  };
+  /// Those for longer than a time [s], the longest first.
+  std::vector<Doubtful> doubtful(double tolerated) const;
+  double total() const { return total_; }  ///< the time of all cycles [s]
+
  private:
   struct Pair {
     bool was_checked = false;
     double seconds = 0.0;
   };
   std::vector<Pair> pairs_;
+  std::vector<Doubtful> doubtful_;
   double total_ = 0.0;  // [s]
   ros::Time end_;       // of the last cycle
 };

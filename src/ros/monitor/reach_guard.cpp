@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "motion/two_body_motion.h"
+#include "robot/geometry_extent.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -27,18 +29,15 @@ std::vector<std::string> framesOf(const CheckedWorld& world, const DescribedScen
 }  // namespace
 
 ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& described)
-    : scene_(world.scene()), robot_(described.robot), chains_({}), is_checked_(scene_.bodies.size(), false) {
-  for (const PlannedPair& pair : scene_.pairs) {
-    for (const int body : {pair.body_a, pair.body_b}) is_checked_[static_cast<std::size_t>(body)] = true;
-  }
+    : world_(world), robot_(described.robot), chains_({}) {
   std::vector<RobotModel::Slide> slides;
-  chains_ = TfChains(framesOf(world, described, slides));
+  std::vector<std::string> frames = framesOf(world, described, slides);
   for (const RobotModel::Slide& slide : slides) {
     joints_.push_back({slide, robot_->urdf().getJoint(slide.joint).get(), ""});
   }
+  std::vector<int> index(world.bodies.size(), -1);  // in guarded_
   for (const UnreachablePair& pair : world.unreachable) {
-    const auto isLink = [&](int body) { return !scene_.bodies[static_cast<std::size_t>(body)].is_world; };
-    if (isLink(pair.body_a) && isLink(pair.body_b)) unreachable_.push_back(pair);
+    addGuarded(pair, index);
     std::vector<std::size_t> joints;
     for (const RobotModel::Slide& slide : pair.slides) {
       const auto joint =
@@ -49,16 +48,66 @@ ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& describe
     pairs_.push_back({pair.body_a, pair.body_b, ""});
     joints_of_pair_.push_back(joints);
   }
+  std::vector<bool> is_checked(world.bodies.size(), false);
+  for (const PlannedPair& pair : world.scene().pairs)
+    for (const int body : {pair.body_a, pair.body_b}) is_checked[static_cast<std::size_t>(body)] = true;
+  for (Guarded& guarded : guarded_) {
+    if (is_checked[guarded.body]) continue;
+    guarded.frame = static_cast<int>(frames.size());
+    frames.push_back(withoutLeadingSlash(world.bodies[guarded.body].frame));
+  }
+  chains_ = TfChains(frames);
+}
+
+void ReachGuard::addGuarded(const UnreachablePair& pair, std::vector<int>& index) {
+  const auto guardedOf = [&](int body, const BoundingBall& ball) {
+    int& of = index[static_cast<std::size_t>(body)];
+    if (of < 0) {
+      of = static_cast<int>(guarded_.size());
+      guarded_.emplace_back();
+      guarded_.back().body = static_cast<std::size_t>(body);
+    }
+    if (!pair.X_AB) guarded_[static_cast<std::size_t>(of)].ball = ball;
+    return static_cast<std::size_t>(of);
+  };
+  GuardedPair guarded{guardedOf(pair.body_a, pair.ball_a), guardedOf(pair.body_b, pair.ball_b), &pair};
+  if (!pair.X_AB) {
+    guarded.reach = pair.ball_a.radius + pair.ball_b.radius;
+    return apart_.push_back(guarded);
+  }
+  joined_.push_back(guarded);
+  const bool b_is_later = guarded.b > guarded.a;
+  Guarded& later = guarded_[b_is_later ? guarded.b : guarded.a];
+  if (later.joined_to >= 0) return;
+  later.joined_to = static_cast<int>(b_is_later ? guarded.a : guarded.b);
+  later.X_AB = b_is_later ? *pair.X_AB : pair.X_AB->inverse();
 }
 
 std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
   std::vector<UncheckedPair> unchecked;
-  if (!unreachable_.empty()) {
-    findSpans(cycle.motion);
-    findTouchingBalls(cycle.motion, unchecked);
+  if (!chains_.frames().empty()) copyMotion(history, cycle);
+  if (!guarded_.empty()) findSpans(cycle.motion);
+  for (std::vector<GuardedPair>* pairs : {&apart_, &joined_})
+    for (GuardedPair& pair : *pairs) pair.is_reported = false;
+  const auto report = [&](GuardedPair& pair, const std::string& reason) {
+    if (!pair.is_reported) unchecked.push_back({pair.pair->body_a, pair.pair->body_b, reason});
+    pair.is_reported = true;
+  };
+  for (std::size_t k = 1; k < cycle.motion.times.size() && !guarded_.empty(); ++k) {
+    place(cycle.motion, k);
+    for (GuardedPair& pair : apart_) {
+      if (!mayMeet(pair)) continue;
+      report(pair, std::string(kOutOfReach) +
+                       " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same "
+                       "robot?");
+    }
+    if (areJoined()) continue;
+    for (GuardedPair& pair : joined_) {
+      const Guarded &a = guarded_[pair.a], &b = guarded_[pair.b];
+      if (!a.is_known || !b.is_known || areJoinedAt(relativePose(a.X_WB, b.X_WB), *pair.pair->X_AB)) continue;
+      report(pair, std::string(kRigidlyJoined) + " in the URDF, but not in tf: do they belong to the same robot?");
+    }
   }
-  if (joints_.empty()) return unchecked;
-  copyJointMotion(history, cycle);
   bool all_hold = true;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     joints_[j].problem = problem(j, cycle);
@@ -77,54 +126,81 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   return unchecked;
 }
 
+/// Finds the waypoints at which a body's poses are those of tf, from its checked pairs.
 void ReachGuard::findSpans(const CycleMotion& motion) {
-  known_.assign(is_checked_.size(), {});
-  if (motion.spans.empty()) {
-    for (std::size_t body = 0; body < known_.size(); ++body)
-      if (is_checked_[body]) known_[body] = {0, motion.times.size() - 1};
-    return;
-  }
-  for (std::size_t p = 0; p < scene_.pairs.size(); ++p) {
+  const std::vector<PlannedPair>& pairs = world_.scene().pairs;
+  known_.assign(world_.bodies.size(), {0, motion.spans.empty() ? motion.times.size() - 1 : 0});
+  for (std::size_t p = 0; p < motion.spans.size(); ++p) {
     const WaypointSpan span = motion.spans[p];
     if (span.empty()) continue;
-    for (const int body : {scene_.pairs[p].body_a, scene_.pairs[p].body_b}) {
+    for (const int body : {pairs[p].body_a, pairs[p].body_b}) {
       WaypointSpan& known = known_[static_cast<std::size_t>(body)];
       known = known.empty() ? span : WaypointSpan{std::min(known.first, span.first), std::max(known.last, span.last)};
     }
   }
 }
 
-/// If two balls meet at a recorded time that cannot meet according to the URDF, tf is that of another robot.
-void ReachGuard::findTouchingBalls(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) const {
-  for (const UnreachablePair& pair : unreachable_) {
-    const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
-    if (known_[a].empty() || known_[b].empty()) continue;
-    if (!motion.missing.empty() && !(motion.missing[a].empty() && motion.missing[b].empty())) continue;
-    const double reach = pair.ball_a.radius + pair.ball_b.radius;
-    const std::size_t last = std::min(known_[a].last, known_[b].last);
-    for (std::size_t k = std::max(known_[a].first, known_[b].first); k <= last; ++k) {
-      const Vector3d displacement = motion.pose(a, k) * pair.ball_a.center - motion.pose(b, k) * pair.ball_b.center;
-      if (displacement.squaredNorm() > reach * reach) continue;
-      unchecked.push_back(
-          {pair.body_a, pair.body_b,
-           std::string(kOutOfReach) +
-               " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same robot?"});
-      break;
+/// Sets where all guarded bodies are at a waypoint.
+void ReachGuard::place(const CycleMotion& motion, std::size_t waypoint) {
+  const double time = motion.times[waypoint];
+  for (Guarded& guarded : guarded_) {
+    const std::size_t body = guarded.body;
+    if (guarded.frame < 0) {
+      const WaypointSpan& known = known_[body];
+      guarded.is_known = !known.empty() && known.first <= waypoint && waypoint <= known.last &&
+                         (motion.missing.empty() || motion.missing[body].empty());
+      if (guarded.is_known) guarded.X_WB = motion.pose(body, waypoint);
+    } else {
+      const auto frame = static_cast<std::size_t>(guarded.frame);
+      const Interval& part = known_parts_[frame];
+      // A static frame's part is a single time.
+      guarded.is_known =
+          window_.problem(frame).empty() && (part.enter == part.exit || (part.enter <= time && time <= part.exit));
+      if (guarded.is_known)
+        guarded.X_WB =
+            window_.pose(frame, std::min(std::max(time, part.enter), part.exit)) * world_.bodies[body].X_frame_B;
     }
+    if (guarded.is_known) guarded.p_WBall = guarded.X_WB * guarded.ball.center;
   }
 }
 
-/// Copies the joints' motion over the cycle, as far as each child is known.
-void ReachGuard::copyJointMotion(const TfHistory& history, const TrackedCycle& cycle) {
+/// Whether all bodies, as far as known, are where they are rigidly joined.
+bool ReachGuard::areJoined() const {
+  return std::all_of(guarded_.begin(), guarded_.end(), [&](const Guarded& b) {
+    if (b.joined_to < 0 || !b.is_known) return true;
+    const Guarded& a = guarded_[static_cast<std::size_t>(b.joined_to)];
+    return a.is_known && areJoinedAt(relativePose(a.X_WB, b.X_WB), b.X_AB);
+  });
+}
+
+/// Whether two bodies are nearer to each other than the URDF's joints allow.
+bool ReachGuard::mayMeet(const GuardedPair& pair) const {
+  const Guarded &a = guarded_[pair.a], &b = guarded_[pair.b];
+  if (!a.is_known || !b.is_known || (a.p_WBall - b.p_WBall).squaredNorm() > pair.reach * pair.reach) return false;
+  // An object may be out of reach though the balls meet, as that of a floor is wide.
+  const auto isApart = [&](const Guarded& object, const Guarded& link) {
+    return world_.scene().bodies[object.body].is_world &&
+           distanceBelow(world_.description().bodies[object.body].geometry, object.X_WB.inverse() * link.p_WBall) >
+               link.ball.radius;
+  };
+  return !isApart(a, b) && !isApart(b, a);
+}
+
+/// Copies the motion of the joints and of guarded bodies over the cycle, as far as each is known.
+void ReachGuard::copyMotion(const TfHistory& history, const TrackedCycle& cycle) {
   history.spans(chains_, spans_);
   parts_.clear();
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const TfSpan& child = spans_[2 * j + 1];
+  known_parts_.clear();
+  for (std::size_t frame = 0; frame < spans_.size(); ++frame) {
+    // Of a joint both frames are needed at the times at which its child is known.
+    const TfSpan& span = spans_[frame < 2 * joints_.size() ? frame | 1 : frame];
     const auto known = [&](double sample) {
-      if (child.is_static || !child.problem.empty()) return child.first;
-      return std::min(std::max(cycle.origin + ros::Duration(sample), child.first), child.last);
+      if (span.is_static || !span.problem.empty()) return span.first;
+      return std::min(std::max(cycle.origin + ros::Duration(sample), span.first), span.last);
     };
-    parts_.insert(parts_.end(), 2, {known(cycle.samples.front()), known(cycle.samples.back())});
+    parts_.push_back({known(cycle.samples.front()), known(cycle.samples.back())});
+    const TimePart& part = parts_.back();
+    known_parts_.push_back({secondsBetween(cycle.origin, part.from), secondsBetween(cycle.origin, part.until)});
   }
   history.copy(chains_, parts_, cycle.origin, window_);
 }
@@ -137,13 +213,12 @@ std::string ReachGuard::problem(std::size_t index, const TrackedCycle& cycle) {
     return std::string(kOutOfReach) + " because of joint " + joint.slide.joint +
            ", whose position is not known: " + window_.problem(frame);
   }
-  const double from = (parts_[child].from - cycle.origin).toSec();
-  const double until = (parts_[child].until - cycle.origin).toSec();
+  const Interval& part = known_parts_[child];
   for (const double sample : cycle.samples) {
-    const double known = std::min(std::max(sample, from), until);
+    const double known = std::min(std::max(sample, part.enter), part.exit);
     const Isometry3d X_PC = relativePose(window_.pose(parent, known), window_.pose(child, known));
     const std::string beyond = beyondReach(joint.slide, robot_->positionAt(*joint.joint, X_PC));
-    if (!beyond.empty() || from == until) return beyond;
+    if (!beyond.empty() || part.enter == part.exit) return beyond;
   }
   return {};
 }

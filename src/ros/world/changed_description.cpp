@@ -24,9 +24,9 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   proved = true;
   const auto isLink = [&](const std::string& link) { return start_up_->link_names.count(link) > 0; };
   if (isLink(object.link) && isLink(other_link) && start_up_->robot->rigidlyJoined(object.link, other_link))
-    return "rigidly joined";
+    return kRigidlyJoined;
   const bool is_static = start_up_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
-  if (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0) return "rigidly joined";
+  if (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0) return kRigidlyJoined;
   proved = false;
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(),
@@ -103,20 +103,27 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
 std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
   std::map<std::string, int> indices;
   for (std::size_t b = 0; b < description.bodies.size(); ++b) indices[description.bodies[b].name] = static_cast<int>(b);
+  const auto hasChanged = [&](const std::string& name) {
+    const auto object = objects_.find(name);
+    return object == objects_.end() ? start_up_->link_names.count(name) == 0 : !object->second.is_unchanged;
+  };
+  const auto indexOf = [&](const std::string& name) {
+    const auto found = indices.find(name);
+    return hasChanged(name) || found == indices.end() ? -1 : found->second;
+  };
   std::vector<UnreachablePair> pairs;
   for (std::size_t p = 0; p < start_up_->unreachable.size(); ++p) {
     UnreachablePair pair = start_up_->unreachable[p];
-    const auto indexOf = [&](const std::string& name) {
-      const auto object = objects_.find(name);
-      const bool has_changed =
-          object == objects_.end() ? start_up_->link_names.count(name) == 0 : !object->second.is_unchanged;
-      const auto found = indices.find(name);
-      return has_changed || found == indices.end() ? -1 : found->second;
-    };
     pair.body_a = indexOf(start_up_->unreachable_names[p].first);
     pair.body_b = indexOf(start_up_->unreachable_names[p].second);
     if (pair.body_a >= 0 && pair.body_b >= 0) pairs.push_back(std::move(pair));
   }
+  std::vector<AllowedPair> joined;  // since then
+  for (const AllowedPair& pair : description.allowed)
+    if (pair.reason == kRigidlyJoined && (hasChanged(pair.body_a) || hasChanged(pair.body_b))) joined.push_back(pair);
+  const std::vector<UnreachablePair> later =
+      unreachablePairs(*start_up_->robot, description.bodies, joined, start_up_->tf_prefix);
+  pairs.insert(pairs.end(), later.begin(), later.end());
   return pairs;
 }
 

@@ -86,7 +86,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   described.kept = parameters.pairs.checked;
   for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});
   described.leave_out_overlapping = parameters.leave_out_overlapping;
-  described.unreachable = unreachablePairs(*robot, described.scene);
+  described.unreachable = unreachablePairs(*robot, described.scene.bodies, described.scene.allowed);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }

@@ -128,17 +128,24 @@ Checked check(const RecordedMotion& motion, const MonitorParameters& parameters,
   return {secondsSince(start), recorder.coverage()};
 }
 
-void requireChecked(const CycleStatistics& statistics, const std::string& bag) {
+void requireChecked(const CycleStatistics& statistics, const Scene& scene, const std::string& bag) {
   const std::vector<CycleRecord>& cycles = statistics.cycles();
   const std::string why = statistics.whyNotChecked();
   require(!cycles.empty(), bag + ": no cycle: the robot's transforms are never known at the same time");
   require(std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); }),
-          bag + ": nothing could be checked" + (why.empty() ? ": there are no pairs" : ", as " + why));
+          bag + ": nothing could be checked" +
+              (why.empty() ? ", as all pairs are left out:\n" + planTable(scene) : ", as " + why));
 }
 
-std::string pairName(const Scene& scene, std::size_t index) {
-  const PlannedPair& pair = scene.pairs[index];
+/// @param pair  of bodies by index.
+template <class Pair>
+std::string pairName(const Scene& scene, const Pair& pair) {
   return scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
+}
+
+/// "1 pair was", "2 pairs were".
+std::string were(std::size_t pairs) {
+  return counted(pairs, "pair") + (pairs == 1 ? " was" : " were");
 }
 
 /// What was not checked, a sentence each; empty if everything was checked, up to the time that late frames may take.
@@ -149,15 +156,20 @@ std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const 
   const std::string why = statistics.whyNotChecked();
   if (!statistics.hasCheckedCycle()) missing.push_back("no cycle was checked as a whole, as " + why);
   if (const std::size_t never = coverage.neverChecked(); never > 0) {
-    missing.push_back(fmt::format("{} were never checked, for example {}{}", counted(never, "pair"),
-                                  pairName(scene, coverage.firstNeverChecked()),
+    missing.push_back(fmt::format("{} never checked, for example {}{}", were(never),
+                                  pairName(scene, scene.pairs[coverage.firstNeverChecked()]),
                                   why.empty() ? "" : "; the most frequent reason: " + why));
   }
   if (const PairCoverage::Partly partly = coverage.partlyChecked(max_latency); partly.pairs > 0) {
     missing.push_back(
-        fmt::format("{} were not checked for a part of the time, {} for {:.2f} of {:.2f} s; the reasons "
-                    "are in cycles.csv",
-                    counted(partly.pairs, "pair"), pairName(scene, partly.worst), partly.unchecked, partly.of));
+        fmt::format("{} not checked for a part of the time, {} for {:.2f} of {:.2f} s; the reasons are in cycles.csv",
+                    were(partly.pairs), pairName(scene, scene.pairs[partly.worst]), partly.unchecked, partly.of));
+  }
+  if (const auto doubtful = coverage.doubtful(max_latency); !doubtful.empty()) {
+    missing.push_back(
+        fmt::format("{} left out, but may touch for a part of the time, {} for {:.2f} of {:.2f} s; the "
+                    "reasons are in cycles.csv",
+                    were(doubtful.size()), pairName(scene, doubtful[0]), doubtful[0].seconds, coverage.total()));
   }
   for (const std::string& gap : statistics.gaps(begin)) missing.push_back("nothing was checked " + gap);
   return missing;
@@ -198,7 +210,7 @@ void run(const Arguments& arguments) {
     warnings.push_back(warning);
   }
   const CycleStatistics& statistics = files.report.statistics();
-  requireChecked(statistics, arguments.bag);
+  requireChecked(statistics, *scene, arguments.bag);
 
   const std::vector<std::string> missing =
       whatIsMissing(statistics, *scene, checked.coverage, motion.begin(), parameters.tf.max_latency);
