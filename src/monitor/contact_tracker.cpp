@@ -222,15 +222,21 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
       (isProved(pair, interval) || std::none_of(pair.intervals.begin(), pair.intervals.end(), isProvedWithin));
   if (is_contact) contact.verdict = Verdict::kContact;
   const ContactPoint* deepest = deepestWithin(pair, interval);
-  if (deepest && (!slot.has_deepest || isDeeper(*deepest, contact.deepest))) {
+  // Points of a contact that may be none, as inside an open mesh, give way to those of a certain one.
+  const bool is_better = deepest && (!slot.has_deepest || is_contact > slot.deepest_is_certain ||
+                                     (is_contact == slot.deepest_is_certain && isDeeper(*deepest, contact.deepest)));
+  if (is_better) {
     contact.deepest = *deepest;
     // Of a contact that goes on over a swap the bodies may be in the other order now.
     if (groups_.keys[group].first.compare(1, std::string::npos, contact.body_a) != 0)
       contact.deepest.normal_W = -deepest->normal_W;
     contact.deepest_origin = cycle.origin;
     slot.has_deepest = true;
+    slot.deepest_is_certain = is_contact;
   }
-  if (pair.refined) slot.max_depth = std::max(slot.max_depth, pair.deepest.depth + pair.deepest.depth_error);
+  // What is known of the deepest point of all is known of its own contact.
+  if (pair.refined && isWithin(pair.deepest, interval))
+    slot.max_depth = std::max(slot.max_depth, pair.deepest.depth + pair.deepest.depth_error);
   contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.max_depth - contact.deepest.depth);
 }
 
@@ -295,7 +301,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   contact.error_bound = contact.contact_error = contact.max_force = 0.0;
   contact.cycles = 0;
   slot.group = static_cast<int>(group);
-  slot.has_deepest = false;
+  slot.has_deepest = slot.deepest_is_certain = false;
   slot.max_depth = 0.0;
   slot.is_open = true;
   slot.cycle = 0;

@@ -115,8 +115,9 @@ class ContactTracker {
     bool is_listed = false;
     bool is_unreported = false;  // it ended with its world, after the last cycle
     bool has_deepest = false;
-    double max_depth = 0.0;   // where refined: upper bound of the depth [m]
-    std::uint64_t cycle = 0;  // last cycle in which it was seen
+    bool deepest_is_certain = false;  // it is of a cycle in which the contact was certain
+    double max_depth = 0.0;           // where refined: upper bound of the depth [m]
+    std::uint64_t cycle = 0;          // last cycle in which it was seen
   };
 
   struct TouchInterval {  // one interval of a pair in a cycle

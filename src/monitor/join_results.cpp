@@ -24,6 +24,18 @@ Wrench shifted(Wrench wrench, const Vector3d& shift) {
   return wrench;
 }
 
+/// Of the peaks of the pieces, keeps that of each interval.
+void keepHighest(PairResult& pair) {
+  std::vector<ContactPoint> highest;
+  for (const Interval& interval : pair.intervals) {
+    const ContactPoint* peak = nullptr;
+    for (const ContactPoint& of_piece : pair.peaks)
+      if (isWithin(of_piece, interval) && (!peak || isDeeper(of_piece, *peak))) peak = &of_piece;
+    if (peak) highest.push_back(*peak);
+  }
+  pair.peaks = std::move(highest);
+}
+
 }  // namespace
 
 void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
@@ -79,6 +91,7 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
       pair.intervals.push_back({start + interval.enter, start + interval.exit});
     }
   }
+  for (const ContactPoint& peak : piece.peaks) pair.peaks.push_back(later(peak, start));
   for (const ContactPoint& point : piece.points) pair.points.push_back(later(point, start));
   std::stable_sort(pair.points.begin(), pair.points.end(),
                    [](const ContactPoint& a, const ContactPoint& b) { return a.depth > b.depth; });
@@ -110,6 +123,7 @@ CycleResult ResultJoiner::result() const {
     PairResult& pair = result.pairs[i];
     if (pair.refined)
       pair.deepest.depth_error = std::max(pair.deepest.depth_error, known_[i].reach - pair.deepest.depth);
+    keepHighest(pair);
     if (pair.verdict != Verdict::kNotChecked) pair.reason.clear();
     pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;
     pair.on_b_W = 1.0 / ends_.times[1] * pair.on_b_W;

@@ -10,7 +10,8 @@ namespace sdf_ccd {
 /// Joins the results of consecutive pieces of a motion, so that a long motion need not be held or checked as a whole.
 ///
 /// Of each pair it keeps the worst verdict, the largest error bound, all intervals (merged where one continues across
-/// the end of a piece), the deepest contact, the deepest of the points, and the wrench averaged over the whole motion.
+/// the end of a piece), the deepest contact, that of each interval, the deepest of the points, and the wrench averaged
+/// over the whole motion.
 class ResultJoiner {
  public:
   /// @param max_points  upper bound of the contact points listed per pair.

@@ -202,6 +202,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     findContacts(motion, request, crossing, result);
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
       refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
+    if (surfaces_) completePeaks(result);
     if (!crossing) doubt(result);
     return setSurfaceError(by_surfaces.is_near, surface_error, result);
   }
@@ -259,18 +260,35 @@ void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
   boundHiddenDepths(result);
 }
 
+/// Looks for a crossing in intervals without a point, such as those that only the first touch is known of.
+void PairChecker::completePeaks(PairResult& result) {
+  for (const Interval interval : std::vector<Interval>(result.intervals)) {
+    const auto isInIt = [&](const ContactPoint& point) { return isWithin(point, interval); };
+    if (isInIt(result.deepest) || std::any_of(result.peaks.begin(), result.peaks.end(), isInIt)) continue;
+    for (const double time : {interval.exit, 0.5 * (interval.enter + interval.exit), interval.enter}) {
+      const std::optional<ContactPoint> crossing = surfaces_->crossingAt(time, motion_error_, memory_->separation);
+      if (!crossing) continue;
+      result.peaks.push_back(*crossing);
+      boundHiddenDepth(result, result.peaks.back());
+      break;
+    }
+  }
+}
+
 /// Points that only touch, or a crossing that no point feels, do not tell how deep the bodies are.
 void PairChecker::boundHiddenDepths(PairResult& result) const {
-  const ErrorBound& error = result.contact_error;
-  const double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
-  const auto bound = [&](ContactPoint& point) {
-    setTimes(result.intervals, point);
-    point.depth = 0.0;  // not −0
-    point.depth_error = std::max(point.depth_error, hidden);
-  };
-  if (!(result.deepest.depth > 0.0)) bound(result.deepest);
+  if (!(result.deepest.depth > 0.0)) boundHiddenDepth(result, result.deepest);
   for (ContactPoint& peak : result.peaks)
-    if (!(peak.depth > 0.0)) bound(peak);
+    if (!(peak.depth > 0.0)) boundHiddenDepth(result, peak);
+}
+
+void PairChecker::boundHiddenDepth(PairResult& result, ContactPoint& point) const {
+  const ErrorBound& error = result.contact_error;
+  double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
+  if (result.refined) hidden = std::min(hidden, result.deepest.depth + result.deepest.depth_error);
+  setTimes(result.intervals, point);
+  point.depth = 0.0;  // not −0
+  point.depth_error = std::max(point.depth_error, hidden);
 }
 
 /// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.

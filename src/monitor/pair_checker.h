@@ -80,7 +80,9 @@ class PairChecker {
   double givenError(const CycleMotion& motion) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
+  void completePeaks(PairResult& result);
   void boundHiddenDepths(PairResult& result) const;
+  void boundHiddenDepth(PairResult& result, ContactPoint& point) const;
   void addCrossing(ContactPoint crossing, PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);

@@ -83,8 +83,10 @@ class DeepestSearch::Look {
       // All points stay within half of the travel of their positions halfway.
       const double bound = boundAround(entry_.X_middle * center, reach + 0.5 * entry_.travel);
       if (BoxTree::isTriangle(node.below[i])) {
-        const RoundedTriangle& triangle = tree.triangle(BoxTree::triangleOf(node.below[i]));
-        add({bound, index_, -1, triangle.corners, triangle.radius, 0.0, 1.0});
+        const int index = BoxTree::triangleOf(node.below[i]);
+        const RoundedTriangle& triangle = tree.triangle(index);
+        const bool is_ball = triangle.radius > 0.0;
+        add({bound, index_, -1, triangle.corners, triangle.radius, 0.0, 1.0, is_ball ? index : -1});
       } else {
         search_.push({bound, index_, node.below[i]});
       }
@@ -96,6 +98,7 @@ class DeepestSearch::Look {
     const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
     const double length = piece.end - piece.start;
     double displacement = motion_.acceleration * length * length / 8.0, longest = -1.0;
+    const bool is_whole_ball = piece.ball >= 0 && piece.corners[0] == piece.corners[1];
     int edge = 0;
     for (int k = 0; k < 3; ++k) {
       displacement = std::max(displacement, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
@@ -103,6 +106,7 @@ class DeepestSearch::Look {
       if (side > longest) edge = k;
       longest = std::max(longest, side);
     }
+    if (is_whole_ball && displacement <= piece.radius) return divideBall(piece);
     // A resting point cannot be divided further.
     const bool is_short = length < 1e-9;
     if (longest == 0.0 && (displacement == 0.0 || is_short)) {
@@ -117,12 +121,47 @@ class DeepestSearch::Look {
       if (isHidden(center, longest + piece.radius)) return;
       const int next = (edge + 1) % 3;
       first.corners[next] = second.corners[edge] = 0.5 * (piece.corners[edge] + piece.corners[next]);
+      if (piece.ball >= 0) {
+        const Vector3d onto = ontoBall(piece.ball, first.corners[next]);
+        first.corners[next] = second.corners[edge] = onto;
+        for (Piece* half : {&first, &second}) half->radius = capHeight(*half);
+      }
     }
     add(first);
     add(second);
   }
 
  private:
+  const RoundedTriangle& ballOf(int index) const { return surface_.triangles->triangle(index); }
+
+  /// The point of a ball's surface in the direction of a point.
+  Vector3d ontoBall(int ball, const Vector3d& p) const {
+    const Vector3d& center = ballOf(ball).corners[0];
+    return center + ballOf(ball).radius * (p - center).normalized();
+  }
+
+  /// Upper bound of the distance from a triangle with corners on a ball to the part of the surface over it.
+  double capHeight(const Piece& piece) const {
+    const auto& [a, b, c] = piece.corners;
+    const RoundedTriangle& ball = ballOf(piece.ball);
+    const double to_plane = std::abs(unitOf((b - a).cross(c - a)).dot(a - ball.corners[0]));
+    return ball.radius - std::min(to_plane, ball.radius) + 1e-12 * ball.radius;
+  }
+
+  /// Into the faces of an octahedron.
+  void divideBall(const Piece& piece) {
+    const RoundedTriangle& ball = ballOf(piece.ball);
+    for (int octant = 0; octant < 8; ++octant) {
+      Piece part = piece;
+      for (int axis = 0; axis < 3; ++axis) {
+        part.corners[axis] = ball.corners[0];
+        part.corners[axis][axis] += (octant >> axis & 1) ? ball.radius : -ball.radius;
+      }
+      part.radius = capHeight(part);
+      add(part);
+    }
+  }
+
   /// Upper bound of the depth within `radius` of a point, from the fields' lower bounds alone.
   double boundAround(const Vector3d& p_F, double radius) const {
     double bound = -kInfinity;
@@ -178,7 +217,7 @@ class DeepestSearch::Look {
     }
     piece.bound = std::min(piece.bound, highest + beyond);
     if (search_.isDone(piece.bound)) return;
-    if (piece.radius > 0.0) return offerRound(piece, X_start);
+    if (piece.ball >= 0 && piece.corners[0] == piece.corners[1]) return offerRound(piece, X_start);
     const int best = static_cast<int>(std::max_element(deepest.begin(), deepest.end()) - deepest.begin());
     if (!search_.isDone(deepest[best]))
       offer(piece.corners[best % 3], corners[best], best < 3 ? piece.start : piece.end);
@@ -269,7 +308,7 @@ class DeepestSearch::Look {
     return behind;
   }
 
-  /// Tests the point of a rounded corner that is deepest in the solid, at the piece's start.
+  /// Tests the point of a ball that is deepest in a solid that does not contain its centre, at the piece's start.
   void offerRound(const Piece& piece, const Isometry3d& X_start) {
     const Vector3d p_F = X_start * piece.corners[0];
     const Vector3d out = depthIn(solid_, p_F).out;

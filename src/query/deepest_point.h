@@ -44,6 +44,9 @@ struct DeepestPoint {
 /// behind it bounds the depth of parts that stick out. If a body has several elements, a point's depth is the largest
 /// of its depths in them.
 ///
+/// A ball's surface is divided into parts with three corners on it; their points are within the height of the cap over
+/// the corners' plane of the triangle between them.
+///
 /// Points that are inside the surface's own body by more than the resolution are not on its surface and do not count.
 /// Depths are exact up to rounding.
 class DeepestSearch {
@@ -84,8 +87,9 @@ class DeepestSearch {
     int motion;
     int node = -1;
     Corners corners = {};  // P's frame
-    double radius = 0.0;
+    double radius = 0.0;   // all of its points are within this of the corners' triangle
     double start = 0.0, end = 1.0;
+    int ball = -1;  // of a ball, or a part of its surface with corners on it: the ball's index in the surface
   };
 
   static bool isLess(const Piece& a, const Piece& b) { return a.bound < b.bound; }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "monitor/contact_tracker.h"
 #include "monitor/scene_case.h"
 #include "oracle/drawn_meshes.h"
 
@@ -262,6 +263,44 @@ TEST(ContactRefinement, OfRoundBodiesToo) {
   ASSERT_TRUE(pair.first_touch);
   EXPECT_NEAR(pair.first_touch->enter, 0.05, 0.003);
   EXPECT_GE(pair.first_touch->exit, 0.05 - 1e-3);
+}
+
+/// The ball's surface is deepest on the board's middle plane, wherever its centre is; or the board's surface in it.
+TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
+  struct Case {
+    double radius, half, beside, depth;
+  };
+  for (const auto& [radius, half, beside, depth] : std::vector<Case>{{0.02, 0.02, 0.003, 0.02},
+                                                                     {0.02, 0.02, 0.01, 0.02},
+                                                                     {0.05, 0.005, 0.0, 0.045},
+                                                                     {0.2, 0.02, 0.0, 0.18},
+                                                                     {0.03, 0.1, 0.02, 0.1}}) {
+    const std::vector<Shape> boards = {Primitive(Box{{0.5, 0.5, half}}), meshShape(boxMesh({0.5, 0.5, half}))};
+    for (const Shape& board : boards) {
+      Monitor monitor(build({body("board", board), body("ball", Primitive(Sphere{radius}))}, coarse()), soft());
+      const auto poses = still(translation({0.1, 0.05, beside}));
+      const PairResult& pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), poses}), refined()).pairs[0];
+      EXPECT_EQ(pair.verdict, Verdict::kContact);
+      EXPECT_NEAR(pair.deepest.depth, depth, 2e-4) << radius << " in " << half << " at " << beside;
+      EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, depth - 1e-9);
+      EXPECT_LE(pair.deepest.depth_error, 2e-4) << radius << " in " << half << " at " << beside;
+    }
+  }
+}
+
+TEST(ContactRefinement, BoundsOnlyTheContactWithTheDeepestPoint) {
+  BodyDescription posts = body("posts", Primitive(Box{{0.03, 0.03, 0.1}}));
+  posts.geometry.push_back({Primitive(Box{{0.03, 0.03, 0.1}}), translation({0.3, 0, 0}), "second"});
+  const auto scene = build({posts, body("tool", Primitive(Box{{0.02, 0.02, 0.02}}))}, usual());
+  Monitor monitor(scene, {});
+  const CycleMotion motion =
+      cycle(1.0, {still(Isometry3d::Identity()), {translation({-0.1, 0.048, 0}), translation({0.4, 0.028, 0})}});
+  ContactTracker tracker(*scene);
+  tracker.update({monitor.run(motion, refined()), motion, motion.times, std::chrono::seconds(1000)});
+  ASSERT_EQ(tracker.size(), 2u);
+  EXPECT_NEAR(tracker[0].deepest.depth, 0.0077, 1e-3);
+  EXPECT_LT(tracker[0].deepest.depth_error, 1e-3);
+  EXPECT_NEAR(tracker[1].deepest.depth, 0.0192, 2e-3);
 }
 
 }  // namespace

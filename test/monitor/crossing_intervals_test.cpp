@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "monitor/contact_tracker.h"
 #include "monitor/scene_case.h"
 #include "oracle/random.h"
 
@@ -200,6 +201,50 @@ TEST(HiddenCrossing, IsNoDeeperThanItsError) {
       }
     }
   }
+}
+
+/// A rod that slides lengthwise through a thin plate crosses it all the time; hundreds of points feel it in turn.
+TEST(HiddenCrossing, OfARodThatHundredsOfPointsFeelIsOneContact) {
+  for (const double half_length : {0.3, 1.2}) {
+    Monitor monitor(build({body("plate", Primitive(Box{{0.125, 0.125, 1e-4}})),
+                           body("rod", Primitive(Box{{0.001, 0.0007, half_length}}))},
+                          optionsForContacts()),
+                    {});
+    const auto at = [&](double share) { return translation({0.0013, 0.0017, share * half_length}); };
+    const PairResult pair = monitor.run(cycle(1.0, {still(Isometry3d::Identity()), {at(-0.9), at(0.9)}}), {}).pairs[0];
+    ASSERT_EQ(pair.verdict, Verdict::kContact);
+    ASSERT_EQ(pair.intervals.size(), 1u) << half_length;
+    EXPECT_EQ(pair.intervals[0].enter, 0.0);
+    EXPECT_EQ(pair.intervals[0].exit, 1.0);
+  }
+}
+
+/// The rod cuts the plate's corner and then enters the block, and the first touch is known exactly.
+TEST(HiddenCrossing, ThatIsTheFirstTouchHasAPlace) {
+  const Vector3d corner(0.125, 0.125, 0.0), along = Vector3d(1, -1, 0).normalized(),
+                                            out = Vector3d(1, 1, 0).normalized();
+  Isometry3d turned = pose({0, 0, 0}, -kPi / 4, {0, 0, 1});
+  BodyDescription plate = body("plate", Primitive(Box{{0.125, 0.125, 1e-4}}));
+  plate.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.12}}), translation(corner + 0.5 * along) * turned, "block"});
+  BodyOptions options = optionsForContacts();
+  options.exact_depths = true;
+  const auto scene = build({plate, body("rod", Primitive(Box{{0.0007, 0.0007, 0.1}}))}, options);
+  CycleRequest refined;
+  refined.refine = Refinement::kDeepest;
+  int contacts = 0;
+  for (int i = 0; i < 20; ++i) {
+    Monitor monitor(scene, {});
+    const auto at = [&](double s) {
+      return translation(corner - (0.002 + 1e-4 * i) * out + s * along + Vector3d(0, 0, 0.005 * i - 0.05)) * turned;
+    };
+    const CycleMotion motion = cycle(1.0, {still(Isometry3d::Identity()), {at(-0.1 - 0.01 * i), at(0.7)}});
+    const CycleResult& result = monitor.run(motion, refined);
+    ContactTracker tracker(*scene);
+    tracker.update({result, motion, motion.times, std::chrono::seconds(1000)});
+    for (std::size_t k = 0; k < tracker.size(); ++k, ++contacts)
+      EXPECT_GT(tracker[k].deepest.p_W.norm(), 0.1) << i << ": its place is not known";
+  }
+  EXPECT_GT(contacts, 20);
 }
 
 }  // namespace
