@@ -69,7 +69,7 @@ class Integrator {
     deepest_ = {};
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) addPiece(point, breaks[i], breaks[i + 1]);
     deepest_.refine([&](double s) { return valueAt(point, s); });
-    result_.depths.push_back(depthOf(point, chord));
+    result_.depths.push_back(depthOf(point, chord, hit.interval));
   }
 
  private:
@@ -172,7 +172,7 @@ class Integrator {
     result_.on_shell_body += {impulse, r_C.cross(impulse)};  // Eq. 5, 11
   }
 
-  HitDepth depthOf(const ChordPoint& point, const Chord& chord) {
+  HitDepth depthOf(const ChordPoint& point, const Chord& chord, const Interval& interval) {
     HitDepth depth;
     depth.siblings = !deepest_.found();
     if (depth.siblings) return depth;
@@ -183,11 +183,22 @@ class Integrator {
     depth.p_F = point.position(s);
     depth.p_C = X_CF * depth.p_F;
     depth.normal_C = X_CF.linear() * fieldNormal(point, s, field_.interpolate(depth.p_F).gradient);
+    if (depth.depth >= input_.field.band() - input_.field.errorBound()) depth.reach = reachOf(point, interval);
     if (!request_.depth_errors) return depth;
     depth.error = input_.field.sample(depth.p_F).error;
     depth.least = depth.depth - depth.error;
     if (depth.depth > input_.field.band()) depth.least = std::max(depth.least, -input_.field.bounds(depth.p_F).high);
     return depth;
+  }
+
+  /// Upper bound of the depth along a part of the straight path, from those at its ends: depth is 1-Lipschitz.
+  double reachOf(const ChordPoint& point, const Interval& interval) const {
+    const Vector3d p_enter = point.position(interval.enter), p_exit = point.position(interval.exit);
+    const auto greatest = [&](const Vector3d& p_F) {
+      const FieldSample sample = input_.field.sample(p_F);
+      return std::max(0.0, sample.error - sample.value);
+    };
+    return 0.5 * (greatest(p_enter) + greatest(p_exit) + (p_exit - p_enter).norm());
   }
 
   const ContactInput& input_;

@@ -34,7 +34,10 @@ struct HitDepth {
   double depth = 0.0;     ///< [m], positive inside, at a sampled point of the path; the maximum: leastDistance()
   double error = 0.0;     ///< of the depth [m]: the field's error at p_F, larger beyond the band
   double least = 0.0;     ///< lower bound of the depth [m]; beyond the band tighter than depth − error
-  double time = 0.0;      ///< [s]
+  /// Of a point that gets as deep as the field's band: upper bound of its depth during the hit [m], as values beyond
+  /// the band do not tell where it is deepest; otherwise 0.
+  double reach = 0.0;
+  double time = 0.0;                     ///< [s]
   Vector3d p_F = Vector3d::Zero();       ///< contact point [m], frame F
   Vector3d p_C = Vector3d::Zero();       ///< the same in frame C
   Vector3d normal_C = Vector3d::Zero();  ///< unit, out of the field's body

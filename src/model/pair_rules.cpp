@@ -77,7 +77,12 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
   };
   allowed.erase(std::remove_if(allowed.begin(), allowed.end(), wanted), allowed.end());
   std::set<NamePair> left_out;
-  for (const AllowedPair& pair : allowed) left_out.insert(namePair(pair.body_a, pair.body_b));
+  for (AllowedPair& pair : allowed) {
+    left_out.insert(namePair(pair.body_a, pair.body_b));
+    // They may touch wherever they are, so that nobody needs to watch whether the proof holds.
+    if (const std::string reason = whyAllowed(rules, pair.body_a, pair.body_b); pair.proved && !reason.empty())
+      pair.reason = reason;
+  }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;

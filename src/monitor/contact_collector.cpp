@@ -136,7 +136,8 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
                 hit.point,
                 {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}},
                 needsErrors(input.field) ? nullptr : &input.field,
-                depth.p_F};
+                depth.p_F,
+                depth.reach};
     found.contact.p_W = depth.p_C + p_WC_;
     // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
@@ -213,29 +214,38 @@ void ContactCollector::join() {
       continue;
     }
     const double enter = kept.contact.enter, exit = std::max(kept.contact.exit, next.contact.exit);
+    const double reach = std::max(kept.reach, next.reach);
     if (next.contact.depth > kept.contact.depth) kept = next;
+    kept.reach = reach;
     kept.contact.enter = enter;
     kept.contact.exit = exit;
   }
   found_.resize(last + 1);
 }
 
+/// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
+void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) {
+  if (found.field) point.depth_error = found.field->sample(found.p_F).error;
+  point.depth_error = std::max(point.depth_error, reach - point.depth);
+}
+
 /// Adds the deepest point of each interval.
 void ContactCollector::addPeaks(PairResult& result) {
   if (found_.empty()) return;
   if (result.intervals.size() == 1) return result.peaks.push_back(result.deepest);
-  peaks_.assign(result.intervals.size(), nullptr);
+  peaks_.assign(result.intervals.size(), {});
   for (const Found& found : found_) {
     const auto after = std::upper_bound(result.intervals.begin(), result.intervals.end(), found.contact.time,
                                         [](double time, const Interval& interval) { return time < interval.enter; });
     if (after == result.intervals.begin()) continue;
-    const Found*& peak = peaks_[static_cast<std::size_t>(after - result.intervals.begin()) - 1];
-    if (!peak || found.contact.depth > peak->contact.depth) peak = &found;
+    Peak& peak = peaks_[static_cast<std::size_t>(after - result.intervals.begin()) - 1];
+    peak.reach = std::max(peak.reach, found.reach);
+    if (!peak.deepest || found.contact.depth > peak.deepest->contact.depth) peak.deepest = &found;
   }
-  for (const Found* peak : peaks_) {
-    if (!peak) continue;
-    result.peaks.push_back(peak->contact);
-    if (peak->field) result.peaks.back().depth_error = peak->field->sample(peak->p_F).error;
+  for (const Peak& peak : peaks_) {
+    if (!peak.deepest) continue;
+    result.peaks.push_back(peak.deepest->contact);
+    setError(*peak.deepest, peak.reach, result.peaks.back());
   }
 }
 
@@ -243,15 +253,22 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   mergeIntervals(intervals_, tolerance());
   result.intervals = intervals_;
   join();
-  const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 1)));
-  std::partial_sort(found_.begin(), found_.begin() + listed, found_.end(), [](const Found& a, const Found& b) {
-    return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
-           std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
-  });
-  for (std::size_t i = 0; i < listed; ++i)
-    if (found_[i].field) found_[i].contact.depth_error = found_[i].field->sample(found_[i].p_F).error;
-  if (!found_.empty()) result.deepest = found_.front().contact;
-  for (std::size_t i = 0; i < listed && request.max_points > 0; ++i) result.points.push_back(found_[i].contact);
+  const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 0)));
+  std::partial_sort(found_.begin(), found_.begin() + std::min(found_.size(), std::max<std::size_t>(listed, 1)),
+                    found_.end(), [](const Found& a, const Found& b) {
+                      return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
+                             std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
+                    });
+  for (std::size_t i = 0; i < listed; ++i) {
+    result.points.push_back(found_[i].contact);
+    setError(found_[i], found_[i].reach, result.points.back());
+  }
+  if (!found_.empty()) {
+    double reach = 0.0;
+    for (const Found& found : found_) reach = std::max(reach, found.reach);
+    result.deepest = found_.front().contact;
+    setError(found_.front(), reach, result.deepest);
+  }
   addPeaks(result);
 
   if (!request.wrenches) return;

@@ -45,6 +45,12 @@ class ContactCollector {
     ContactPoint contact;
     const DistanceField* field;  // to be queried for the depth's error later; null if the error is known
     Vector3d p_F;                // position in that field
+    double reach;                // HitDepth::reach
+  };
+
+  struct Peak {
+    const Found* deepest = nullptr;
+    double reach = 0.0;  // of all points of its interval
   };
 
   void setFieldPoses(const PairRole& role);
@@ -55,6 +61,7 @@ class ContactCollector {
   void join();
   void joinWhereMany();
   void addPeaks(PairResult& result);
+  static void setError(const Found& found, double reach, ContactPoint& point);
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
   bool needsErrors(const DistanceField& field) const;
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
@@ -69,9 +76,9 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  std::vector<const Found*> peaks_;  // per interval: its deepest; null if it has none
-  std::vector<Isometry3d> X_CF_;     // per chord end: pose of the field's body
-  std::vector<Isometry3d> X_CG_;     // the same for a part, in one block
+  std::vector<Peak> peaks_;       // per interval
+  std::vector<Isometry3d> X_CF_;  // per chord end: pose of the field's body
+  std::vector<Isometry3d> X_CG_;  // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
   std::vector<ShellHit> listed_;                     // hits of a block

@@ -231,12 +231,15 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
     if (groups_.keys[group].first.compare(1, std::string::npos, contact.body_a) != 0)
       contact.deepest.normal_W = -deepest->normal_W;
     contact.deepest_origin = cycle.origin;
+    if (is_contact > slot.deepest_is_certain) slot.max_depth = 0.0;
     slot.has_deepest = true;
     slot.deepest_is_certain = is_contact;
   }
-  // What is known of the deepest point of all is known of its own contact.
-  if (pair.refined && isWithin(pair.deepest, interval))
-    slot.max_depth = std::max(slot.max_depth, pair.deepest.depth + pair.deepest.depth_error);
+  // Points of other cycles may be deeper by their own errors. If refined, the deepest one stands for all of its
+  // contact.
+  const bool is_refined = pair.refined && deepest == &pair.deepest;
+  if (deepest && is_contact == slot.deepest_is_certain && (deepest->depth > 0.0 || is_refined))
+    slot.max_depth = std::max(slot.max_depth, deepest->depth + deepest->depth_error);
   contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.max_depth - contact.deepest.depth);
 }
 

@@ -77,10 +77,10 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
     pair.deepest = later(piece.deepest, start);
   addFirstTouch(start, piece, pair, known);
   pair.refined |= piece.refined;
-  if (!piece.intervals.empty()) {
+  if (!piece.intervals.empty() && (piece.refined || piece.deepest.depth > 0.0)) {
     known.reach = std::max(known.reach, piece.deepest.depth + piece.deepest.depth_error);
-  } else if (piece.verdict == Verdict::kUncertain) {
-    known.reach = std::max(known.reach, piece.error.total());
+  } else if (piece.intervals.empty() && piece.verdict == Verdict::kUncertain) {
+    known.near = std::max(known.near, piece.error.total());
   }
   for (const Interval& interval : piece.intervals) {
     const bool goes_on = !pair.intervals.empty() && interval.enter <= kAtEnd * length &&
@@ -121,8 +121,8 @@ CycleResult ResultJoiner::result() const {
   CycleResult result = joined_;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     PairResult& pair = result.pairs[i];
-    if (pair.refined)
-      pair.deepest.depth_error = std::max(pair.deepest.depth_error, known_[i].reach - pair.deepest.depth);
+    const double reach = std::max(known_[i].reach, pair.refined ? known_[i].near : 0.0);
+    pair.deepest.depth_error = std::max(pair.deepest.depth_error, reach - pair.deepest.depth);
     keepHighest(pair);
     if (pair.verdict != Verdict::kNotChecked) pair.reason.clear();
     pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;

@@ -262,7 +262,8 @@ void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
 
 /// Looks for a crossing in intervals without a point, such as those that only the first touch is known of.
 void PairChecker::completePeaks(PairResult& result) {
-  for (const Interval interval : std::vector<Interval>(result.intervals)) {
+  for (std::size_t i = 0; i < result.intervals.size(); ++i) {
+    const Interval interval = result.intervals[i];
     const auto isInIt = [&](const ContactPoint& point) { return isWithin(point, interval); };
     if (isInIt(result.deepest) || std::any_of(result.peaks.begin(), result.peaks.end(), isInIt)) continue;
     for (const double time : {interval.exit, 0.5 * (interval.enter + interval.exit), interval.enter}) {

@@ -200,8 +200,12 @@ TEST(Solid, WhatCannotBeToldTakesNoLongerThanTheLimit) {
     return threadSeconds() - start;
   };
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  const double least = secondsWith(1);
-  EXPECT_LT(secondsWith(200'000) - least, 0.2 * (secondsWith(20'000'000) - least));
+  // Another program that uses the processor's caches can make one run take much longer.
+  const auto fastestWith = [&](std::size_t visits) {
+    return std::min({secondsWith(visits), secondsWith(visits), secondsWith(visits)});
+  };
+  const double least = fastestWith(1);
+  EXPECT_LT(fastestWith(200'000) - least, 0.2 * (fastestWith(20'000'000) - least));
 }
 
 /// Boxes that lie on each other or share edges, exactly or nearly, or are rotated by tiny angles.

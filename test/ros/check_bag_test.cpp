@@ -329,6 +329,39 @@ TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
   EXPECT_EQ(contradicting, 1);
 }
 
+/// As by a robot whose computer's clock is ahead of that of the one that records.
+TEST_F(CheckBag, TransformsStampedAheadOfTheBagsClockAreChecked) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  ros::Time last;
+  {
+    const rosbag::Bag made(path("made/checked.bag").string(), rosbag::bagmode::Read);
+    rosbag::Bag ahead(path("ahead.bag").string(), rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : rosbag::View(made)) {
+      const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+      if (!transforms || transforms->transforms.empty()) continue;
+      ahead.write(message.getTopic(), std::max(ros::Time(kBegin), message.getTime() - ros::Duration(0.4)), *transforms);
+      last = std::max(last, transforms->transforms[0].header.stamp);
+    }
+  }
+  const ToolRun result = run(check("ahead.bag", "again"));
+  const std::vector<Row> before = table("made/contacts.csv"), after = table("again/contacts.csv");
+  ASSERT_EQ(after.size(), before.size()) << result.out << result.error;
+  for (std::size_t k = 0; k < after.size(); ++k)
+    EXPECT_NEAR(std::stod(Row(after[k])["start"]), std::stod(Row(before[k])["start"]), 1e-6);
+  EXPECT_NEAR(std::stod(Row(table("again/cycles.csv").back())["t1"]), last.toSec(), 1e-6);
+}
+
+/// As `rosbag record /joint_states /tf_static` has it.
+TEST_F(CheckBag, JointStatesCountThoughTfHasTheFixedLinks) {
+  {
+    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
+    bag.write("/tf_static", ros::Time(kBegin), message({stampedTransform("hand", "tip", kBegin, 0.192)}));
+  }
+  const ToolRun result = run(check("arm.bag", "made"));
+  EXPECT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("followed by joint_states"), std::string::npos) << result.out;
+}
+
 TEST_F(CheckBag, StartAndDurationChooseAPart) {
   ASSERT_EQ(run(check("arm.bag", "part", "--start 0.1 --duration 0.4")).exit_code, kDone);
   const std::vector<Row> cycles = table("part/cycles.csv");

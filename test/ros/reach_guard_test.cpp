@@ -76,7 +76,9 @@ TEST_F(ReachGuardTest, WhereTfHasThemNearEachOtherTheyAreNotChecked) {
 /// stands in the world, and a floor, above which the arm turns.
 class FixedBaseTest : public ::testing::Test {
  protected:
-  FixedBaseTest() {
+  FixedBaseTest() { prepare({}); }
+
+  void prepare(const std::vector<PairRule>& allowed) {
     MonitorParameters parameters = parseParameters({}, "~");
     const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
     parameters.urdf =
@@ -98,7 +100,8 @@ class FixedBaseTest : public ::testing::Test {
     add("wall", "elsewhere", {0.1, 0.1, 0.1}, Vector3d::Zero());
     add("table", "world", {0.1, 0.1, 1.0}, {3.0, 0.0, 0.0});
     add("floor", "world", {5.0, 5.0, 0.1}, {0.0, 0.0, -2.0});
-    parameters.pairs.allowed = {{"wall", "base"}, {"wall", "arm"}};
+    parameters.pairs.allowed = allowed;
+    parameters.pairs.allowed.insert(parameters.pairs.allowed.end(), {{"wall", "base"}, {"wall", "arm"}});
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
     loop_ =
@@ -146,6 +149,12 @@ TEST_F(FixedBaseTest, WhatTfMovesIsNotChecked) {
   EXPECT_EQ(uncheckedWithBaseAt(2.6),
             (std::set<std::string>{"base - table" + moved, "base - floor" + moved, "tool - table" + out}));
   EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>()) << "back again";
+}
+
+TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
+  prepare({{"table", "*"}, {"floor", "base"}});
+  uncheckedWithBaseAt(0.0);
+  EXPECT_EQ(uncheckedWithBaseAt(2.6), std::set<std::string>());
 }
 
 }  // namespace

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "ros/tf/seconds_between.h"
+
 namespace sdf_ccd {
 namespace {
 
 constexpr const char* kStalls = "no new transforms";
+constexpr double kAhead = 10.0;  // transforms may be stamped ahead of the clock that recorded them by as much [s]
 constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // limits set by clocks [s]
 
 }  // namespace
@@ -54,7 +57,10 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
     observer.onTransforms(transforms);
   });
   runUntil(motion.end());
-  if (stepAt(motion.end()) == TfTracker::Step::kStalled) tellGap(motion.end());
+  now = motion.end();
+  TfTracker::Step step = stepAt(now);
+  while (step == TfTracker::Step::kCycle && secondsBetween(motion.end(), now) < kAhead) step = stepAt(now += period);
+  if (step == TfTracker::Step::kStalled) tellGap(now);
 }
 
 }  // namespace sdf_ccd

@@ -25,6 +25,13 @@ std::vector<std::string> JointFrames::frames() const {
   return frames;
 }
 
+std::vector<std::string> JointFrames::movableFrames() const {
+  std::vector<std::string> frames;
+  for (const Link& link : links_)
+    if (link.joint->type != urdf::Joint::FIXED) frames.push_back(prefix_ + robot_->links()[link.index]);
+  return frames;
+}
+
 bool JointFrames::knows(const std::string& joint) const {
   return std::any_of(links_.begin(), links_.end(), [&](const Link& link) { return link.joint->name == joint; });
 }

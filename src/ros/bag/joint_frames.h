@@ -18,8 +18,10 @@ class JointFrames {
   /// @param prefix  of the links' frames: "", or a name that ends in a slash.
   JointFrames(std::shared_ptr<const RobotModel> robot, const std::string& prefix);
 
-  /// Frames of all links but the root, which a bag's tf may contain; and whether the robot has a joint of this name.
+  /// Frames of all links but the root, which a bag's tf may contain, and of those that are not on fixed joints; and
+  /// whether the robot has a joint of this name.
   std::vector<std::string> frames() const;
+  std::vector<std::string> movableFrames() const;
   bool knows(const std::string& joint) const;
 
   /// Transforms of the links on fixed joints whose frames are wanted.

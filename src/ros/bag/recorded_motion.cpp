@@ -94,7 +94,9 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
     }
   }
   const auto isNamed = [&](const std::string& link) { return tf_frames_.count(link) > 0; };
-  if (std::any_of(links.begin(), links.end(), isNamed) || (links.empty() && !tf_topics_.empty())) {
+  // A bag of /joint_states and /tf_static has the links on fixed joints in tf.
+  const std::vector<std::string> telling = joint_state_topics_.empty() ? links : joints_.movableFrames();
+  if (std::any_of(telling.begin(), telling.end(), isNamed) || (telling.empty() && !tf_topics_.empty())) {
     joint_state_topics_.clear();
   } else if (links.empty()) {
     throw std::runtime_error(file_ + ": holds no tf, and the robot has no other links whose joints could move");

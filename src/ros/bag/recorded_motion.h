@@ -28,9 +28,9 @@ struct RecordedTransforms {
   bool is_static = false;
 };
 
-/// The motion of a robot that a bag recorded: from tf or, if tf contains none of the links, from joint states, which
-/// are converted to transforms as by robot_state_publisher. Links on fixed joints that are not in tf have the poses of
-/// the URDF.
+/// The motion of a robot that a bag recorded: from tf or, if tf contains none of the links that joints move, from joint
+/// states, which are converted to transforms as by robot_state_publisher. Links on fixed joints that are not in tf have
+/// the poses of the URDF.
 class RecordedMotion {
  public:
   /// Finds the frames in the bag; reads it until all frames that are needed are found.

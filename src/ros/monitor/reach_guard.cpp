@@ -85,6 +85,7 @@ void ReachGuard::addGuarded(const UnreachablePair& pair, std::vector<int>& index
 
 std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
   std::vector<UncheckedPair> unchecked;
+  if (cycle.samples.empty()) return unchecked;
   if (!chains_.frames().empty()) copyMotion(history, cycle);
   if (!guarded_.empty()) findSpans(cycle.motion);
   for (std::vector<GuardedPair>* pairs : {&apart_, &joined_})

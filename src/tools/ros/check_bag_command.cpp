@@ -252,7 +252,8 @@ void addCheckBagCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check-bag", "What the collision monitor finds in a recorded bag");
   command->footer(
       "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
-      "where tf names none of its links, by joint_states and the URDF. Writes to DIR: checked.bag (the transforms, and "
+      "where tf names none of the links that joints move, by joint_states and the URDF. Writes to DIR: checked.bag "
+      "(the transforms, and "
       "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
