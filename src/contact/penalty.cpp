@@ -191,14 +191,22 @@ class Integrator {
     return depth;
   }
 
-  /// Upper bound of the depth along a part of the straight path, from those at its ends: depth is 1-Lipschitz.
+  /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.
   double reachOf(const ChordPoint& point, const Interval& interval) const {
-    const Vector3d p_enter = point.position(interval.enter), p_exit = point.position(interval.exit);
-    const auto greatest = [&](const Vector3d& p_F) {
-      const FieldSample sample = input_.field.sample(p_F);
-      return std::max(0.0, sample.error - sample.value);
-    };
-    return 0.5 * (greatest(p_enter) + greatest(p_exit) + (p_exit - p_enter).norm());
+    constexpr double kMostPieces = 16.0;
+    const double length = (point.position(interval.exit) - point.position(interval.enter)).norm();
+    const double wanted = std::max(1.0, std::ceil(length / input_.field.errorBound()));
+    const int pieces = static_cast<int>(std::min(wanted, kMostPieces));
+    double reach = 0.0, before = 0.0;
+    for (int i = 0; i <= pieces; ++i) {
+      const double share = static_cast<double>(i) / pieces;
+      const FieldSample sample =
+          input_.field.sample(point.position((1.0 - share) * interval.enter + share * interval.exit));
+      const double greatest = std::max(0.0, sample.error - sample.value);
+      if (i > 0) reach = std::max(reach, 0.5 * (before + greatest + length / pieces));
+      before = greatest;
+    }
+    return reach;
   }
 
   const ContactInput& input_;

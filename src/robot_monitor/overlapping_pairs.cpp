@@ -26,11 +26,12 @@ std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene
   return text;
 }
 
-/// Whether surfaces are too close to be told apart, as those that joints hold together. Where nothing is known of the
-/// inside, as in an open mesh, the error is larger.
+/// Whether surfaces are so close as those that joints hold together. Where nothing is known of the inside, as in an
+/// open mesh, the error is larger.
 bool touch(const PairResult& pair) {
   constexpr double kTouch = 1e-3;  // [m]
-  return pair.verdict == Verdict::kUncertain && pair.error.total() <= kTouch;
+  return (pair.verdict == Verdict::kUncertain && pair.error.total() <= kTouch) ||
+         (pair.verdict == Verdict::kClear && pair.clearance <= kTouch);
 }
 
 }  // namespace

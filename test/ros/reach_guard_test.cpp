@@ -157,5 +157,89 @@ TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
   EXPECT_EQ(uncheckedWithBaseAt(2.6), std::set<std::string>());
 }
 
+/// Three links are fixed on one that turns, out of the base's reach; tf moves the middle one, which may touch the
+/// first.
+TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
+  MonitorParameters parameters = parseParameters({}, "~");
+  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  parameters.urdf = "<robot name='r'><link name='base'>" + ball + "</link><link name='turn'/>";
+  parameters.urdf +=
+      "<joint name='turns' type='continuous'><parent link='base'/><child link='turn'/><origin xyz='9 0 "
+      "0'/><axis xyz='0 0 1'/></joint>";
+  for (const std::string number : {"0", "1", "2"})
+    parameters.urdf += "<link name='l" + number + "'>" + ball + "</link><joint name='j" + number +
+                       "' type='fixed'><parent link='turn'/><child link='l" + number + "'/><origin xyz='" + number +
+                       " 0 0'/></joint>";
+  parameters.urdf += "</robot>";
+  parameters.scene.cache_directory.clear();
+  parameters.pairs.allowed = {{"l0", "l1"}};
+  WorldObject wall;
+  wall.name = "wall";
+  wall.frame = "elsewhere";
+  wall.shapes = {{Primitive(Box{{0.1, 0.1, 0.1}})}};
+  parameters.world.push_back(wall);
+  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
+  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
+  MonitorLoop loop(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
+  std::set<std::string> unchecked;
+  for (int i = 0; i < 20; ++i) {
+    const double time = 100.0 + 0.05 * i, moved = i < 10 ? 0.0 : 0.1 * (i - 9);
+    loop.history().add(
+        message({stampedTransform("base", "elsewhere", time, 50.0), stampedTransform("base", "turn", time, 9.0),
+                 stampedTransform("turn", "l0", time, 0.0), stampedTransform("turn", "l1", time, 1.0 + moved),
+                 stampedTransform("turn", "l2", time, 2.0)}),
+        false);
+    if (loop.step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
+    unchecked.clear();
+    for (const PairContact& pair : toContactArray(loop).pairs) unchecked.insert(pair.body_a + " - " + pair.body_b);
+    if (i < 10) EXPECT_EQ(unchecked, std::set<std::string>());
+  }
+  EXPECT_EQ(unchecked, std::set<std::string>({"l1 - l2"}));
+}
+
+/// A mobile robot with a load in its base's frame, whose arm's transforms come later than is waited for: the poses of
+/// the cycle are then not all those of tf.
+TEST(ReachGuard, LateFramesOfOthersMoveNothing) {
+  MonitorParameters parameters = parseParameters({}, "~");
+  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  parameters.urdf = "<robot name='r'><link name='base'>" + ball + "</link><link name='arm'>" + ball +
+                    "</link><joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin "
+                    "xyz='0 0 0.3'/><axis xyz='0 0 1'/></joint></robot>";
+  parameters.scene.cache_directory.clear();
+  parameters.fixed_frame = "map";
+  WorldObject load;
+  load.name = "load";
+  load.frame = "base";
+  load.shapes = {{Primitive(Box{{0.1, 0.1, 0.1}})}};
+  load.X_frame_B.translation() = Vector3d(0.4, 0.0, 0.3);
+  parameters.world.push_back(load);
+  WorldObject table = load;
+  table.name = "table";
+  table.frame = "map";
+  table.X_frame_B.translation().x() = 5.0;
+  parameters.world.push_back(table);
+  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
+  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
+  MonitorLoop loop(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
+  int cycles = 0, late = 0;
+  for (int i = 0; i < 240; ++i) {
+    const double seconds = i / 60.0, time = 100.0 + seconds;
+    if (i % 3 == 0)
+      loop.history().add(message({stampedTransform("map", "base", time, 0.5 * seconds, 0.5 * seconds)}), false);
+    loop.history().add(message({stampedTransform("base", "arm", ros::Time(time - 0.6), Quaterniond::Identity(),
+                                                 Vector3d(0.0, 0.0, 0.3))}),
+                       false);
+    if (i % 2 != 0 || loop.step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
+    ++cycles;
+    for (const PairContact& pair : toContactArray(loop).pairs) {
+      late += pair.reason.find("late") != std::string::npos;
+      EXPECT_EQ(pair.reason.find("URDF"), std::string::npos)
+          << i << ": " << pair.body_a << " - " << pair.body_b << ": " << pair.reason;
+    }
+  }
+  EXPECT_GT(cycles, 20);
+  EXPECT_EQ(late, 0) << "they are named as bodies";
+}
+
 }  // namespace
 }  // namespace sdf_ccd

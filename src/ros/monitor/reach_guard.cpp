@@ -76,11 +76,19 @@ void ReachGuard::addGuarded(const UnreachablePair& pair, std::vector<int>& index
     return apart_.push_back(guarded);
   }
   joined_.push_back(guarded);
-  const bool b_is_later = guarded.b > guarded.a;
-  Guarded& later = guarded_[b_is_later ? guarded.b : guarded.a];
-  if (later.joined_to >= 0) return;
-  later.joined_to = static_cast<int>(b_is_later ? guarded.a : guarded.b);
-  later.X_AB = b_is_later ? *pair.X_AB : pair.X_AB->inverse();
+  const auto [root_a, X_RA] = groupOf(guarded.a);
+  const auto [root_b, X_RB] = groupOf(guarded.b);
+  if (root_a == root_b) return;
+  guarded_[root_b].joined_to = static_cast<int>(root_a);
+  guarded_[root_b].X_AB = X_RA * *pair.X_AB * X_RB.inverse();
+}
+
+/// The first body of its rigid group, as known so far, and the body's pose in that one.
+std::pair<std::size_t, Isometry3d> ReachGuard::groupOf(std::size_t body) const {
+  Isometry3d X = Isometry3d::Identity();
+  for (; guarded_[body].joined_to >= 0; body = static_cast<std::size_t>(guarded_[body].joined_to))
+    X = guarded_[body].X_AB * X;
+  return {body, X};
 }
 
 std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const TrackedCycle& cycle) {
@@ -127,16 +135,25 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   return unchecked;
 }
 
-/// Finds the waypoints at which a body's poses are those of tf, from its checked pairs.
+/// Finds waypoints at which a body's poses are those of tf: it is held at rest where no pair needs it that is known.
+/// Where these are several spans, of frames that come late, the last one is taken.
 void ReachGuard::findSpans(const CycleMotion& motion) {
   const std::vector<PlannedPair>& pairs = world_.scene().pairs;
   known_.assign(world_.bodies.size(), {0, motion.spans.empty() ? motion.times.size() - 1 : 0});
+  const auto isMissing = [&](int body) {
+    return !motion.missing.empty() && !motion.missing[static_cast<std::size_t>(body)].empty();
+  };
   for (std::size_t p = 0; p < motion.spans.size(); ++p) {
     const WaypointSpan span = motion.spans[p];
-    if (span.empty()) continue;
+    if (span.empty() || isMissing(pairs[p].body_a) || isMissing(pairs[p].body_b)) continue;
     for (const int body : {pairs[p].body_a, pairs[p].body_b}) {
       WaypointSpan& known = known_[static_cast<std::size_t>(body)];
-      known = known.empty() ? span : WaypointSpan{std::min(known.first, span.first), std::max(known.last, span.last)};
+      const bool meets = !known.empty() && span.first <= known.last && known.first <= span.last;
+      if (meets) {
+        known = {std::min(known.first, span.first), std::max(known.last, span.last)};
+      } else if (known.empty() || span.last > known.last) {
+        known = span;
+      }
     }
   }
 }
@@ -154,9 +171,9 @@ void ReachGuard::place(const CycleMotion& motion, std::size_t waypoint) {
     } else {
       const auto frame = static_cast<std::size_t>(guarded.frame);
       const Interval& part = known_parts_[frame];
-      // A static frame's part is a single time.
-      guarded.is_known =
-          window_.problem(frame).empty() && (part.enter == part.exit || (part.enter <= time && time <= part.exit));
+      constexpr double kRounding = 1e-6;  // [s]
+      guarded.is_known = window_.problem(frame).empty() &&
+                         (spans_[frame].is_static || (part.enter - kRounding <= time && time <= part.exit + kRounding));
       if (guarded.is_known)
         guarded.X_WB =
             window_.pose(frame, std::min(std::max(time, part.enter), part.exit)) * world_.bodies[body].X_frame_B;

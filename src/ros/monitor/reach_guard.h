@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/tf/tf_tracker.h"
@@ -35,7 +36,7 @@ class ReachGuard {
     std::size_t body;
     int frame = -1;  // in chains_, of a body that is in no checked pair, so that its motion is not in the cycle's
     BoundingBall ball;
-    int joined_to = -1;  // an earlier one to which it is rigidly joined
+    int joined_to = -1;  // another one of its rigid group; -1 for the group's first
     Isometry3d X_AB;     // in that one
     bool is_known = false;
     Isometry3d X_WB;   // if known, at the time that is looked at
@@ -50,6 +51,7 @@ class ReachGuard {
   };
 
   void addGuarded(const UnreachablePair& pair, std::vector<int>& index);
+  std::pair<std::size_t, Isometry3d> groupOf(std::size_t body) const;
   void copyMotion(const TfHistory& history, const TrackedCycle& cycle);
   void findSpans(const CycleMotion& motion);
   void place(const CycleMotion& motion, std::size_t waypoint);
