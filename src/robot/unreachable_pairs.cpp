@@ -73,6 +73,7 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std
     if (left_out.reason == kRigidlyJoined && X_RF.count(a.frame) > 0 && X_RF.count(b.frame) > 0) {
       pair.X_AB = relativePose(X_RF[a.frame] * a.X_frame_B, X_RF[b.frame] * b.X_frame_B);
       pairs.push_back(std::move(pair));
+      continue;
     }
     if (left_out.reason != kOutOfReach) continue;
     pair.ball_a = ballOf(a);
