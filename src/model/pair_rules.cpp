@@ -79,9 +79,10 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
   std::set<NamePair> left_out;
   for (AllowedPair& pair : allowed) {
     left_out.insert(namePair(pair.body_a, pair.body_b));
+    if (!pair.proved) continue;
     // They may touch wherever they are, so that nobody needs to watch whether the proof holds.
-    if (const std::string reason = whyAllowed(rules, pair.body_a, pair.body_b); pair.proved && !reason.empty())
-      pair.reason = reason;
+    const std::string reason = whyAllowed(rules, pair.body_a, pair.body_b);
+    if (!reason.empty()) pair.reason = reason;
   }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {

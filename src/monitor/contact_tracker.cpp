@@ -30,14 +30,6 @@ bool isProved(const PairResult& pair, const Interval& interval) {
                      [&](const ContactPoint& point) { return proves(pair, point, interval); });
 }
 
-/// The deepest point within the interval; null if none is known.
-const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interval) {
-  const ContactPoint* deepest = isWithin(pair.deepest, interval) ? &pair.deepest : nullptr;
-  for (const ContactPoint& point : pair.peaks)
-    if (isWithin(point, interval) && (!deepest || isDeeper(point, *deepest))) deepest = &point;
-  return deepest;
-}
-
 /// Mean force while the pair touched [N]; results hold the mean over the whole span.
 double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
   double touching = 0.0;

@@ -28,10 +28,7 @@ Wrench shifted(Wrench wrench, const Vector3d& shift) {
 void keepHighest(PairResult& pair) {
   std::vector<ContactPoint> highest;
   for (const Interval& interval : pair.intervals) {
-    const ContactPoint* peak = nullptr;
-    for (const ContactPoint& of_piece : pair.peaks)
-      if (isWithin(of_piece, interval) && (!peak || isDeeper(of_piece, *peak))) peak = &of_piece;
-    if (peak) highest.push_back(*peak);
+    if (const ContactPoint* peak = deepestPeak(pair, interval)) highest.push_back(*peak);
   }
   pair.peaks = std::move(highest);
 }

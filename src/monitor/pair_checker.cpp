@@ -264,8 +264,7 @@ void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
 void PairChecker::completePeaks(PairResult& result) {
   for (std::size_t i = 0; i < result.intervals.size(); ++i) {
     const Interval interval = result.intervals[i];
-    const auto isInIt = [&](const ContactPoint& point) { return isWithin(point, interval); };
-    if (isInIt(result.deepest) || std::any_of(result.peaks.begin(), result.peaks.end(), isInIt)) continue;
+    if (deepestWithin(result, interval)) continue;
     for (const double time : {interval.exit, 0.5 * (interval.enter + interval.exit), interval.enter}) {
       const std::optional<ContactPoint> crossing = surfaces_->crossingAt(time, motion_error_, memory_->separation);
       if (!crossing) continue;

@@ -36,6 +36,19 @@ bool isDeeper(const ContactPoint& a, const ContactPoint& b) {
   return std::tie(a.depth, a.depth_error) > std::tie(b.depth, b.depth_error);
 }
 
+const ContactPoint* deepestPeak(const PairResult& pair, const Interval& interval) {
+  const ContactPoint* deepest = nullptr;
+  for (const ContactPoint& peak : pair.peaks)
+    if (isWithin(peak, interval) && (!deepest || isDeeper(peak, *deepest))) deepest = &peak;
+  return deepest;
+}
+
+const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interval) {
+  const ContactPoint* peak = deepestPeak(pair, interval);
+  const bool is_of_all = isWithin(pair.deepest, interval) && (!peak || !isDeeper(*peak, pair.deepest));
+  return is_of_all ? &pair.deepest : peak;
+}
+
 void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
   for (const Interval& interval : intervals) {
     if (!isWithin(point, interval)) continue;

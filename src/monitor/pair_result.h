@@ -19,6 +19,11 @@ bool isWithin(const ContactPoint& point, const Interval& interval);
 /// Of two points of the same depth, the one whose error is larger may be deeper.
 bool isDeeper(const ContactPoint& a, const ContactPoint& b);
 
+/// The deepest of the peaks that are within the interval, and of these and the deepest point of all; null if there is
+/// none.
+const ContactPoint* deepestPeak(const PairResult& pair, const Interval& interval);
+const ContactPoint* deepestWithin(const PairResult& pair, const Interval& interval);
+
 /// Sets the point's interval to the one that contains its time; adds an interval of zero length if none does.
 void setTimes(std::vector<Interval>& intervals, ContactPoint& point);
 

@@ -98,7 +98,6 @@ class DeepestSearch::Look {
     const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
     const double length = piece.end - piece.start;
     double displacement = motion_.acceleration * length * length / 8.0, longest = -1.0;
-    const bool is_whole_ball = piece.ball >= 0 && piece.corners[0] == piece.corners[1];
     int edge = 0;
     for (int k = 0; k < 3; ++k) {
       displacement = std::max(displacement, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
@@ -106,7 +105,7 @@ class DeepestSearch::Look {
       if (side > longest) edge = k;
       longest = std::max(longest, side);
     }
-    if (is_whole_ball && displacement <= piece.radius) return divideBall(piece);
+    if (isWholeBall(piece) && displacement <= piece.radius) return divideBall(piece);
     // A resting point cannot be divided further.
     const bool is_short = length < 1e-9;
     if (longest == 0.0 && (displacement == 0.0 || is_short)) {
@@ -133,6 +132,11 @@ class DeepestSearch::Look {
 
  private:
   const RoundedTriangle& ballOf(int index) const { return surface_.triangles->triangle(index); }
+
+  /// Not a part of its surface, whose corners lie on it.
+  bool isWholeBall(const Piece& piece) const {
+    return piece.ball >= 0 && piece.corners[0] == ballOf(piece.ball).corners[0];
+  }
 
   /// The point of a ball's surface in the direction of a point.
   Vector3d ontoBall(int ball, const Vector3d& p) const {
@@ -217,7 +221,7 @@ class DeepestSearch::Look {
     }
     piece.bound = std::min(piece.bound, highest + beyond);
     if (search_.isDone(piece.bound)) return;
-    if (piece.ball >= 0 && piece.corners[0] == piece.corners[1]) return offerRound(piece, X_start);
+    if (isWholeBall(piece)) return offerRound(piece, X_start);
     const int best = static_cast<int>(std::max_element(deepest.begin(), deepest.end()) - deepest.begin());
     if (!search_.isDone(deepest[best]))
       offer(piece.corners[best % 3], corners[best], best < 3 ? piece.start : piece.end);

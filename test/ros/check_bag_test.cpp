@@ -151,27 +151,6 @@ TEST_F(CheckBag, TheTableHasARowPerContactAsTheLastMessageHasIt) {
   EXPECT_EQ(rows, "1 CONTACT 2; 2 CONTACT 6; 1 CONTACT 9; ");
 }
 
-TEST_F(CheckBag, TfOfTheBaseGoesWithJointStates) {
-  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
-  {
-    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
-    for (double time = kBegin; time < kBegin + 2.0; time += kSamplePeriod)
-      bag.write("/tf", ros::Time(time), message({stampedTransform("/odom", "/base", time, 0.0)}));
-    bag.write("/controller/joint_states", ros::Time(kBegin), sensor_msgs::JointState());  // of another robot
-  }
-  write("odom.yaml", readText(path("arm.yaml")) + "fixed_frame: odom\n");
-  const ToolRun result = run(check("arm.bag", "odom", "--config odom.yaml"));
-  EXPECT_EQ(result.exit_code, kPartlyDone);  // the joint states end half a second before the base's transforms
-  EXPECT_NE(result.error.find("pairs were not checked for a part of the time, "), std::string::npos) << result.error;
-  EXPECT_NE(result.error.find(" for 0.57 of 2.00 s"), std::string::npos) << result.error;
-  EXPECT_NE(result.out.find("followed by joint_states"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("fixed frame odom"), std::string::npos) << result.out;
-  Row still = table("made/contacts.csv").at(0), moved = table("odom/contacts.csv").at(0);
-  EXPECT_NEAR(std::stod(still["start"]), std::stod(moved["start"]), 1e-6);
-  EXPECT_EQ(still["depth"], moved["depth"]);
-  expectRefused(check("arm.bag", "no", "--joint-states /nowhere"), "contains no joint states on /nowhere");
-}
-
 /// Tests the last row of cycles.csv, which is about a gap, not a cycle.
 void expectGap(const std::vector<Row>& cycles, double from, double until) {
   Row last = cycles.back(), before = cycles.at(cycles.size() - 2);
@@ -307,59 +286,6 @@ TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
   // The cycle that ends the gap reports it.
   EXPECT_EQ(std::count_if(cycles.begin(), cycles.end(), [](Row cycle) { return cycle["verdict"] == "NOT_CHECKED"; }),
             1);
-}
-
-TEST_F(CheckBag, TransformsThatComeLateAreNamed) {
-  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
-  {
-    rosbag::Bag bag(path("made/checked.bag").string(), rosbag::bagmode::Append);
-    const auto late =
-        stampedTransform("base", "turret", kBegin + 10.5 * kSamplePeriod, 0.0, M_PI);  // far from its pose
-    bag.write("/tf", ros::Time(kBegin + 13.2 * kSamplePeriod), message({late}));
-  }
-  const ToolRun result = run(check("made/checked.bag", "again"));
-  EXPECT_NE(result.out.find("late transforms  in 1 cycles"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("frames: turret"), std::string::npos) << result.out;
-  int contradicting = 0;
-  for (Row cycle : table("again/cycles.csv")) {
-    if (cycle["contradicted_since"] == "0.000000000") continue;
-    ++contradicting;
-    EXPECT_NEAR(std::stod(cycle["contradicted_since"]), kBegin + 10.0 * kSamplePeriod, 1e-6);
-  }
-  EXPECT_EQ(contradicting, 1);
-}
-
-/// As by a robot whose computer's clock is ahead of that of the one that records.
-TEST_F(CheckBag, TransformsStampedAheadOfTheBagsClockAreChecked) {
-  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
-  ros::Time last;
-  {
-    const rosbag::Bag made(path("made/checked.bag").string(), rosbag::bagmode::Read);
-    rosbag::Bag ahead(path("ahead.bag").string(), rosbag::bagmode::Write);
-    for (const rosbag::MessageInstance& message : rosbag::View(made)) {
-      const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
-      if (!transforms || transforms->transforms.empty()) continue;
-      ahead.write(message.getTopic(), std::max(ros::Time(kBegin), message.getTime() - ros::Duration(0.4)), *transforms);
-      last = std::max(last, transforms->transforms[0].header.stamp);
-    }
-  }
-  const ToolRun result = run(check("ahead.bag", "again"));
-  const std::vector<Row> before = table("made/contacts.csv"), after = table("again/contacts.csv");
-  ASSERT_EQ(after.size(), before.size()) << result.out << result.error;
-  for (std::size_t k = 0; k < after.size(); ++k)
-    EXPECT_NEAR(std::stod(Row(after[k])["start"]), std::stod(Row(before[k])["start"]), 1e-6);
-  EXPECT_NEAR(std::stod(Row(table("again/cycles.csv").back())["t1"]), last.toSec(), 1e-6);
-}
-
-/// As `rosbag record /joint_states /tf_static` has it.
-TEST_F(CheckBag, JointStatesCountThoughTfHasTheFixedLinks) {
-  {
-    rosbag::Bag bag(path("arm.bag").string(), rosbag::bagmode::Append);
-    bag.write("/tf_static", ros::Time(kBegin), message({stampedTransform("hand", "tip", kBegin, 0.192)}));
-  }
-  const ToolRun result = run(check("arm.bag", "made"));
-  EXPECT_EQ(result.exit_code, kDone) << result.error;
-  EXPECT_NE(result.out.find("followed by joint_states"), std::string::npos) << result.out;
 }
 
 TEST_F(CheckBag, StartAndDurationChooseAPart) {

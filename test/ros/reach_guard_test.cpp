@@ -14,28 +14,48 @@ namespace {
 using test::message;
 using test::stampedTransform;
 
+const std::string kBall = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+
+MonitorParameters parametersOf(const std::string& urdf) {
+  MonitorParameters parameters = parseParameters({}, "~");
+  parameters.urdf = urdf;
+  parameters.scene.cache_directory.clear();
+  return parameters;
+}
+
+WorldObject box(const std::string& name, const std::string& frame, const Vector3d& half = Vector3d::Constant(0.1),
+                const Vector3d& at = Vector3d::Zero()) {
+  WorldObject object;
+  object.name = name;
+  object.frame = frame;
+  object.shapes = {{Primitive(Box{half})}};
+  object.X_frame_B.translation() = at;
+  return object;
+}
+
+DescribedScene describe(const MonitorParameters& parameters) {
+  return describeScene(parameters, [](const std::string&) { return Resource(); });
+}
+
+std::unique_ptr<MonitorLoop> loopOf(const DescribedScene& described, const MonitorParameters& parameters) {
+  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
+  return std::make_unique<MonitorLoop>(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
+}
+
 /// Two wheels 2 m apart, and a ball in front of a wall, so that there is a pair to check.
 class ReachGuardTest : public ::testing::Test {
  protected:
   ReachGuardTest() {
-    MonitorParameters parameters = parseParameters({}, "~");
     const auto wheel = [](const std::string& name, const std::string& x) {
-      return "<link name='" + name +
-             "'><collision><geometry><sphere radius='0.1'/></geometry></collision></link><joint name='j_" + name +
+      return "<link name='" + name + "'>" + kBall + "</link><joint name='j_" + name +
              "' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='" + x +
              " 0 0'/><axis xyz='0 1 0'/></joint>";
     };
-    parameters.urdf = "<robot name='cart'><link name='base'/>" + wheel("left", "-1") + wheel("right", "1") + "</robot>";
-    parameters.scene.cache_directory.clear();
-    WorldObject wall;
-    wall.name = "wall";
-    wall.frame = "elsewhere";
-    wall.shapes = {{Primitive(Box{{0.1, 0.1, 0.1}})}};
-    parameters.world.push_back(wall);
-    described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
-    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
-    loop_ =
-        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+    MonitorParameters parameters =
+        parametersOf("<robot name='cart'><link name='base'/>" + wheel("left", "-1") + wheel("right", "1") + "</robot>");
+    parameters.world.push_back(box("wall", "elsewhere"));
+    described_ = describe(parameters);
+    loop_ = loopOf(described_, parameters);
   }
 
   ContactArray cycleWithRightAt(double x) {
@@ -79,33 +99,19 @@ class FixedBaseTest : public ::testing::Test {
   FixedBaseTest() { prepare({}); }
 
   void prepare(const std::vector<PairRule>& allowed) {
-    MonitorParameters parameters = parseParameters({}, "~");
-    const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
-    parameters.urdf =
-        "<robot name='r'><link name='world'/><link name='base'>" + ball + "</link><link name='arm'>" + ball +
-        "</link><link name='tool'>" + ball +
+    MonitorParameters parameters = parametersOf(
+        "<robot name='r'><link name='world'/><link name='base'>" + kBall + "</link><link name='arm'>" + kBall +
+        "</link><link name='tool'>" + kBall +
         "</link><joint name='stands' type='fixed'><parent link='world'/><child link='base'/></joint>"
         "<joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin xyz='0 0 0.5'/><axis "
         "xyz='0 0 1'/></joint><joint name='holds' type='fixed'><parent link='arm'/><child link='tool'/><origin "
-        "xyz='0.5 0 0'/></joint></robot>";
-    parameters.scene.cache_directory.clear();
-    const auto add = [&](const std::string& name, const std::string& frame, const Vector3d& half, const Vector3d& at) {
-      WorldObject object;
-      object.name = name;
-      object.frame = frame;
-      object.shapes = {{Primitive(Box{half})}};
-      object.X_frame_B.translation() = at;
-      parameters.world.push_back(object);
-    };
-    add("wall", "elsewhere", {0.1, 0.1, 0.1}, Vector3d::Zero());
-    add("table", "world", {0.1, 0.1, 1.0}, {3.0, 0.0, 0.0});
-    add("floor", "world", {5.0, 5.0, 0.1}, {0.0, 0.0, -2.0});
+        "xyz='0.5 0 0'/></joint></robot>");
+    parameters.world = {box("wall", "elsewhere"), box("table", "world", {0.1, 0.1, 1.0}, {3.0, 0.0, 0.0}),
+                        box("floor", "world", {5.0, 5.0, 0.1}, {0.0, 0.0, -2.0})};
     parameters.pairs.allowed = allowed;
     parameters.pairs.allowed.insert(parameters.pairs.allowed.end(), {{"wall", "base"}, {"wall", "arm"}});
-    described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
-    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
-    loop_ =
-        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+    described_ = describe(parameters);
+    loop_ = loopOf(described_, parameters);
     loop_->history().add(
         message({stampedTransform("world", "elsewhere", time_, 50.0), stampedTransform("arm", "tool", time_, 0.5)}),
         true);
@@ -160,38 +166,28 @@ TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
 /// Three links are fixed on one that turns, out of the base's reach; tf moves the middle one, which may touch the
 /// first.
 TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
-  MonitorParameters parameters = parseParameters({}, "~");
-  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
-  parameters.urdf = "<robot name='r'><link name='base'>" + ball + "</link><link name='turn'/>";
-  parameters.urdf +=
-      "<joint name='turns' type='continuous'><parent link='base'/><child link='turn'/><origin xyz='9 0 "
-      "0'/><axis xyz='0 0 1'/></joint>";
+  std::string urdf = "<robot name='r'><link name='base'>" + kBall +
+                     "</link><link name='turn'/><joint name='turns' type='continuous'><parent link='base'/><child "
+                     "link='turn'/><origin xyz='9 0 0'/><axis xyz='0 0 1'/></joint>";
   for (const std::string number : {"0", "1", "2"})
-    parameters.urdf += "<link name='l" + number + "'>" + ball + "</link><joint name='j" + number +
-                       "' type='fixed'><parent link='turn'/><child link='l" + number + "'/><origin xyz='" + number +
-                       " 0 0'/></joint>";
-  parameters.urdf += "</robot>";
-  parameters.scene.cache_directory.clear();
+    urdf += "<link name='l" + number + "'>" + kBall + "</link><joint name='j" + number +
+            "' type='fixed'><parent link='turn'/><child link='l" + number + "'/><origin xyz='" + number +
+            " 0 0'/></joint>";
+  MonitorParameters parameters = parametersOf(urdf + "</robot>");
   parameters.pairs.allowed = {{"l0", "l1"}};
-  WorldObject wall;
-  wall.name = "wall";
-  wall.frame = "elsewhere";
-  wall.shapes = {{Primitive(Box{{0.1, 0.1, 0.1}})}};
-  parameters.world.push_back(wall);
-  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
-  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
-  MonitorLoop loop(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
+  parameters.world.push_back(box("wall", "elsewhere"));
+  const std::unique_ptr<MonitorLoop> loop = loopOf(describe(parameters), parameters);
   std::set<std::string> unchecked;
   for (int i = 0; i < 20; ++i) {
     const double time = 100.0 + 0.05 * i, moved = i < 10 ? 0.0 : 0.1 * (i - 9);
-    loop.history().add(
+    loop->history().add(
         message({stampedTransform("base", "elsewhere", time, 50.0), stampedTransform("base", "turn", time, 9.0),
                  stampedTransform("turn", "l0", time, 0.0), stampedTransform("turn", "l1", time, 1.0 + moved),
                  stampedTransform("turn", "l2", time, 2.0)}),
         false);
-    if (loop.step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
+    if (loop->step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
     unchecked.clear();
-    for (const PairContact& pair : toContactArray(loop).pairs) unchecked.insert(pair.body_a + " - " + pair.body_b);
+    for (const PairContact& pair : toContactArray(*loop).pairs) unchecked.insert(pair.body_a + " - " + pair.body_b);
     if (i < 10) EXPECT_EQ(unchecked, std::set<std::string>());
   }
   EXPECT_EQ(unchecked, std::set<std::string>({"l1 - l2"}));
@@ -200,38 +196,25 @@ TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
 /// A mobile robot with a load in its base's frame, whose arm's transforms come later than is waited for: the poses of
 /// the cycle are then not all those of tf.
 TEST(ReachGuard, LateFramesOfOthersMoveNothing) {
-  MonitorParameters parameters = parseParameters({}, "~");
-  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
-  parameters.urdf = "<robot name='r'><link name='base'>" + ball + "</link><link name='arm'>" + ball +
-                    "</link><joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin "
-                    "xyz='0 0 0.3'/><axis xyz='0 0 1'/></joint></robot>";
-  parameters.scene.cache_directory.clear();
+  MonitorParameters parameters =
+      parametersOf("<robot name='r'><link name='base'>" + kBall + "</link><link name='arm'>" + kBall +
+                   "</link><joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin "
+                   "xyz='0 0 0.3'/><axis xyz='0 0 1'/></joint></robot>");
   parameters.fixed_frame = "map";
-  WorldObject load;
-  load.name = "load";
-  load.frame = "base";
-  load.shapes = {{Primitive(Box{{0.1, 0.1, 0.1}})}};
-  load.X_frame_B.translation() = Vector3d(0.4, 0.0, 0.3);
-  parameters.world.push_back(load);
-  WorldObject table = load;
-  table.name = "table";
-  table.frame = "map";
-  table.X_frame_B.translation().x() = 5.0;
-  parameters.world.push_back(table);
-  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
-  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
-  MonitorLoop loop(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
+  const Vector3d half = Vector3d::Constant(0.1);
+  parameters.world = {box("load", "base", half, {0.4, 0.0, 0.3}), box("table", "map", half, {5.0, 0.0, 0.3})};
+  const std::unique_ptr<MonitorLoop> loop = loopOf(describe(parameters), parameters);
   int cycles = 0, late = 0;
   for (int i = 0; i < 240; ++i) {
     const double seconds = i / 60.0, time = 100.0 + seconds;
     if (i % 3 == 0)
-      loop.history().add(message({stampedTransform("map", "base", time, 0.5 * seconds, 0.5 * seconds)}), false);
-    loop.history().add(message({stampedTransform("base", "arm", ros::Time(time - 0.6), Quaterniond::Identity(),
-                                                 Vector3d(0.0, 0.0, 0.3))}),
-                       false);
-    if (i % 2 != 0 || loop.step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
+      loop->history().add(message({stampedTransform("map", "base", time, 0.5 * seconds, 0.5 * seconds)}), false);
+    loop->history().add(message({stampedTransform("base", "arm", ros::Time(time - 0.6), Quaterniond::Identity(),
+                                                  Vector3d(0.0, 0.0, 0.3))}),
+                        false);
+    if (i % 2 != 0 || loop->step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
     ++cycles;
-    for (const PairContact& pair : toContactArray(loop).pairs) {
+    for (const PairContact& pair : toContactArray(*loop).pairs) {
       late += pair.reason.find("late") != std::string::npos;
       EXPECT_EQ(pair.reason.find("URDF"), std::string::npos)
           << i << ": " << pair.body_a << " - " << pair.body_b << ": " << pair.reason;

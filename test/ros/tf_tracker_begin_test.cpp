@@ -6,7 +6,6 @@ namespace {
 
 using test::stampedTransform;
 using test::TfTrackerTest;
-using Step = TfTracker::Step;
 
 TEST_F(TfTrackerTest, AFrameThatNeverCameIsMissingAfterMaxLatency) {
   send(stampedTransform("world", "hand", 10.0, 0.0));

@@ -48,15 +48,15 @@ struct CycleRequest {
 
 /// One contact of one shell point.
 struct ContactPoint {
-  double enter = 0.0;               ///< [s] from t₀
-  double exit = 0.0;                ///< [s] from t₀
-  double time = 0.0;                ///< when it is deepest [s] from t₀
-  double depth = 0.0;               ///< [m]
-  double depth_error = 0.0;         ///< of the depth [m], from the field at this point: mostly less than
-                                    ///< ErrorBound::field. Beyond the band the point may get deeper at another time by
-                                    ///< up to this. If the surfaces cross without any point inside, the depth is 0,
-                                    ///< and they are no deeper than this
-  Vector3d p_W = Vector3d::Zero();  ///< when deepest [m]
+  double enter = 0.0;  ///< [s] from t₀
+  double exit = 0.0;   ///< [s] from t₀
+  double time = 0.0;   ///< when it is deepest [s] from t₀
+  double depth = 0.0;  ///< [m]
+  /// Of the depth [m], from the field at this point: mostly less than ErrorBound::field. Beyond the band the point may
+  /// get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and they
+  /// are no deeper than this.
+  double depth_error = 0.0;
+  Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
 
@@ -75,9 +75,9 @@ struct PairResult {
   double clearance = 0.0;    ///< lower bound of the distance at the span's end, the motion's error taken off [m];
                              ///< negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  ContactPoint
-      deepest;  ///< valid if intervals is not empty; beyond the band, its error holds for all points. If refined, no
-                ///< point of either surface gets deeper than this depth by more than depth_error within the span
+  /// Valid if intervals is not empty; beyond the band, its error holds for all points. If refined, no point of either
+  /// surface gets deeper than this depth by more than depth_error within the span.
+  ContactPoint deepest;
   bool refined = false;  ///< the deepest point was measured on triangles: see CycleRequest::refine
   /// If refined, and the surfaces cross: the bodies are apart before `enter`, and certainly touch by `exit`. The first
   /// interval begins between the two. `exit` is infinite if no certain crossing was found. Not set if one body may be

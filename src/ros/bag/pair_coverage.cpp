@@ -16,18 +16,14 @@ void PairCoverage::add(const TrackedCycle& cycle, const CycleResult& result, std
     pairs_[p].seconds += cycle.motion.times[pair.span.last] - cycle.motion.times[pair.span.first];
   }
   for (std::size_t p = pairs; p < result.pairs.size(); ++p) {
-    const PairResult& pair = result.pairs[p];
-    const auto isSame = [&](const Doubtful& d) { return d.body_a == pair.body_a && d.body_b == pair.body_b; };
-    auto found = std::find_if(doubtful_.begin(), doubtful_.end(), isSame);
-    if (found == doubtful_.end()) found = doubtful_.insert(found, {pair.body_a, pair.body_b, 0.0});
-    found->seconds += seconds;
+    doubtful_[{result.pairs[p].body_a, result.pairs[p].body_b}] += seconds;
   }
 }
 
 std::vector<PairCoverage::Doubtful> PairCoverage::doubtful(double tolerated) const {
   std::vector<Doubtful> longer;
-  for (const Doubtful& pair : doubtful_)
-    if (pair.seconds > tolerated) longer.push_back(pair);
+  for (const auto& [bodies, seconds] : doubtful_)
+    if (seconds > tolerated) longer.push_back({bodies.first, bodies.second, seconds});
   std::stable_sort(longer.begin(), longer.end(),
                    [](const Doubtful& a, const Doubtful& b) { return a.seconds > b.seconds; });
   return longer;
@@ -45,7 +41,6 @@ std::size_t PairCoverage::firstNeverChecked() const {
 
 PairCoverage::Partly PairCoverage::partlyChecked(double tolerated) const {
   Partly partly;
-  partly.of = total_;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const double unchecked = total_ - pairs_[p].seconds;
     if (!pairs_[p].was_checked || !(unchecked > tolerated)) continue;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "ros/tf/tf_tracker.h"
@@ -25,7 +25,6 @@ class PairCoverage {
     std::size_t pairs = 0;
     std::size_t worst = 0;   ///< the pair that was unchecked for the longest time
     double unchecked = 0.0;  ///< of that pair [s]
-    double of = 0.0;         ///< the time of all cycles [s]
   };
   Partly partlyChecked(double tolerated) const;
 
@@ -44,9 +43,9 @@ class PairCoverage {
     double seconds = 0.0;
   };
   std::vector<Pair> pairs_;
-  std::vector<Doubtful> doubtful_;
-  double total_ = 0.0;  // [s]
-  ros::Time end_;       // of the last cycle
+  std::map<std::pair<int, int>, double> doubtful_;  // by bodies: for how long [s]
+  double total_ = 0.0;                              // [s]
+  ros::Time end_;                                   // of the last cycle
 };
 
 }  // namespace sdf_ccd

@@ -38,15 +38,6 @@ ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& describe
   std::vector<int> index(world.bodies.size(), -1);  // in guarded_
   for (const UnreachablePair& pair : world.unreachable) {
     addGuarded(pair, index);
-    std::vector<std::size_t> joints;
-    for (const RobotModel::Slide& slide : pair.slides) {
-      const auto joint =
-          std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.slide.joint == slide.joint; });
-      joints.push_back(static_cast<std::size_t>(joint - joints_.begin()));
-    }
-    if (joints.empty()) continue;
-    pairs_.push_back({pair.body_a, pair.body_b, ""});
-    joints_of_pair_.push_back(joints);
   }
   std::vector<bool> is_checked(world.bodies.size(), false);
   for (const PlannedPair& pair : world.scene().pairs)
@@ -73,6 +64,11 @@ void ReachGuard::addGuarded(const UnreachablePair& pair, std::vector<int>& index
   GuardedPair guarded{guardedOf(pair.body_a, pair.ball_a), guardedOf(pair.body_b, pair.ball_b), &pair};
   if (!pair.X_AB) {
     guarded.reach = pair.ball_a.radius + pair.ball_b.radius;
+    for (const RobotModel::Slide& slide : pair.slides) {
+      const auto joint =
+          std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.slide.joint == slide.joint; });
+      guarded.joints.push_back(static_cast<std::size_t>(joint - joints_.begin()));
+    }
     return apart_.push_back(guarded);
   }
   joined_.push_back(guarded);
@@ -95,44 +91,49 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   std::vector<UncheckedPair> unchecked;
   if (cycle.samples.empty()) return unchecked;
   if (!chains_.frames().empty()) copyMotion(history, cycle);
-  if (!guarded_.empty()) findSpans(cycle.motion);
   for (std::vector<GuardedPair>* pairs : {&apart_, &joined_})
     for (GuardedPair& pair : *pairs) pair.is_reported = false;
-  const auto report = [&](GuardedPair& pair, const std::string& reason) {
-    if (!pair.is_reported) unchecked.push_back({pair.pair->body_a, pair.pair->body_b, reason});
-    pair.is_reported = true;
-  };
-  for (std::size_t k = 1; k < cycle.motion.times.size() && !guarded_.empty(); ++k) {
-    place(cycle.motion, k);
+  if (!guarded_.empty()) checkPoses(cycle.motion, unchecked);
+  if (!joints_.empty()) checkJoints(cycle, unchecked);
+  return unchecked;
+}
+
+void ReachGuard::report(GuardedPair& pair, const std::string& reason, std::vector<UncheckedPair>& unchecked) {
+  if (!pair.is_reported) unchecked.push_back({pair.pair->body_a, pair.pair->body_b, reason});
+  pair.is_reported = true;
+}
+
+void ReachGuard::checkPoses(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked) {
+  findSpans(motion);
+  for (std::size_t k = 1; k < motion.times.size(); ++k) {
+    place(motion, k);
     for (GuardedPair& pair : apart_) {
       if (!mayMeet(pair)) continue;
-      report(pair, std::string(kOutOfReach) +
-                       " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same "
-                       "robot?");
+      report(pair,
+             std::string(kOutOfReach) +
+                 " according to the URDF, but close to each other in tf: do the URDF and tf belong to the same robot?",
+             unchecked);
     }
     if (areJoined()) continue;
     for (GuardedPair& pair : joined_) {
       const Guarded &a = guarded_[pair.a], &b = guarded_[pair.b];
       if (!a.is_known || !b.is_known || areJoinedAt(relativePose(a.X_WB, b.X_WB), *pair.pair->X_AB)) continue;
-      report(pair, std::string(kRigidlyJoined) + " in the URDF, but not in tf: do they belong to the same robot?");
+      report(pair, std::string(kRigidlyJoined) + " in the URDF, but not in tf: do they belong to the same robot?",
+             unchecked);
     }
   }
+}
+
+void ReachGuard::checkJoints(const TrackedCycle& cycle, std::vector<UncheckedPair>& unchecked) {
   bool all_hold = true;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     joints_[j].problem = problem(j, cycle);
     all_hold &= joints_[j].problem.empty();
   }
-  for (std::size_t p = 0; p < pairs_.size() && !all_hold; ++p) {
-    const auto isNamed = [&](const UncheckedPair& named) {
-      return named.body_a == pairs_[p].body_a && named.body_b == pairs_[p].body_b;
-    };
-    for (const std::size_t joint : joints_of_pair_[p]) {
-      if (joints_[joint].problem.empty() || std::any_of(unchecked.begin(), unchecked.end(), isNamed)) continue;
-      unchecked.push_back({pairs_[p].body_a, pairs_[p].body_b, joints_[joint].problem});
-      break;
-    }
-  }
-  return unchecked;
+  if (all_hold) return;
+  for (GuardedPair& pair : apart_)
+    for (const std::size_t joint : pair.joints)
+      if (!joints_[joint].problem.empty()) report(pair, joints_[joint].problem, unchecked);
 }
 
 /// Finds waypoints at which a body's poses are those of tf: it is held at rest where no pair needs it that is known.

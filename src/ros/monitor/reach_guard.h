@@ -46,13 +46,17 @@ class ReachGuard {
   struct GuardedPair {
     std::size_t a, b;  // in guarded_
     const UnreachablePair* pair;
-    double reach = 0.0;  // sum of the balls' radii [m]
+    double reach = 0.0;                    // sum of the balls' radii [m]
+    std::vector<std::size_t> joints = {};  // in joints_, which must keep to their ranges
     bool is_reported = false;
   };
 
   void addGuarded(const UnreachablePair& pair, std::vector<int>& index);
   std::pair<std::size_t, Isometry3d> groupOf(std::size_t body) const;
   void copyMotion(const TfHistory& history, const TrackedCycle& cycle);
+  static void report(GuardedPair& pair, const std::string& reason, std::vector<UncheckedPair>& unchecked);
+  void checkPoses(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked);
+  void checkJoints(const TrackedCycle& cycle, std::vector<UncheckedPair>& unchecked);
   void findSpans(const CycleMotion& motion);
   void place(const CycleMotion& motion, std::size_t waypoint);
   bool areJoined() const;
@@ -67,8 +71,6 @@ class ReachGuard {
   std::vector<TimePart> parts_;
   std::vector<Interval> known_parts_;  // per part [s] from the origin
   TfWindow window_;
-  std::vector<UncheckedPair> pairs_;                      // that depend on joints; without reasons
-  std::vector<std::vector<std::size_t>> joints_of_pair_;  // per pair: indices of joints
   std::vector<Guarded> guarded_;
   std::vector<GuardedPair> apart_, joined_;
   std::vector<WaypointSpan> known_;  // per body, in the last cycle

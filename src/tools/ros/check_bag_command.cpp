@@ -161,9 +161,9 @@ std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const 
                                   why.empty() ? "" : "; the most frequent reason: " + why));
   }
   if (const PairCoverage::Partly partly = coverage.partlyChecked(max_latency); partly.pairs > 0) {
-    missing.push_back(
-        fmt::format("{} not checked for a part of the time, {} for {:.2f} of {:.2f} s; the reasons are in cycles.csv",
-                    were(partly.pairs), pairName(scene, scene.pairs[partly.worst]), partly.unchecked, partly.of));
+    missing.push_back(fmt::format(
+        "{} not checked for a part of the time, {} for {:.2f} of {:.2f} s; the reasons are in cycles.csv",
+        were(partly.pairs), pairName(scene, scene.pairs[partly.worst]), partly.unchecked, coverage.total()));
   }
   if (const auto doubtful = coverage.doubtful(max_latency); !doubtful.empty()) {
     missing.push_back(
@@ -253,8 +253,8 @@ void addCheckBagCommand(CLI::App& app) {
   command->footer(
       "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
       "where tf names none of the links that joints move, by joint_states and the URDF. Writes to DIR: checked.bag "
-      "(the transforms, and "
-      "contacts, state, wrenches, markers, plan and world as the monitor publishes them; roslaunch sdf_ccd bag.launch "
+      "(the transforms, and contacts, state, wrenches, markers, plan and world as the monitor publishes them; "
+      "roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
       "code 1: some pairs were not checked at all, or not for more than max_latency in total, no cycle was checked as "
