@@ -99,9 +99,28 @@ struct NearBoxes {
 void boxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
              const BoxMotion& motion, float cut, NearBoxes& found);
 
+/// The same with displacements bounded along each of these directions by themselves instead of any_per_reach: gaps of
+/// boxes that turn on each other are larger. Takes longer.
+void directedBoxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
+                     const BoxMotion& motion, float cut, NearBoxes& found);
+
+/// The same where the other box moves: `motion` is that of its center, and its other points are displaced by up to
+/// ± spread_0 ± spread_1 ± spread_2 more.
+void directedBoxGaps(const BoxTree::Node& node, const PlacedBox& box, const std::array<float, 3>& direction,
+                     const BoxMotion& motion, const std::array<std::array<float, 3>, 3>& spread, float cut,
+                     NearBoxes& found);
+
+/// Bounds the motion of boxes along one direction: a point x [m] from the origin of their tree is displaced along it,
+/// to either side, by no more than |shift + turn x| + any.
+struct MotionAlong {
+  float shift;
+  std::array<float, 3> turn;
+  float any;
+};
+
 /// Upper bounds of the extents of the node's boxes along `direction` (unit) during a motion, from the tree's origin
 /// [m].
-void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& direction, const BoxMotion& motion,
+void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& direction, const MotionAlong& motion,
                  BoxTree::Node::Lane& supports);
 
 /// Upper bound of the rounding errors of boxGaps() and boxSupports(), relative to the size of the coordinates: the

@@ -63,7 +63,7 @@ Matrix3d halfway(const Matrix3d& from, const Matrix3d& to) {
 /// Upper bound of a tree's extent along a direction; infinite if it exceeds the limit, or takes too many steps to find.
 /// @param reachOf  returns an upper bound of a triangle's extent.
 template <typename ReachOf>
-double support(const BoxTree& tree, const Floats& direction, const BoxMotion& motion, double limit,
+double support(const BoxTree& tree, const Floats& direction, const MotionAlong& motion, double limit,
                const ReachOf& reachOf) {
   constexpr int kMaxBoxes = 96;
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -138,9 +138,9 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
   const Vector3d p_AB = 0.5 * (at_start + at_end) - a.origin();
   const Matrix3d difference = 0.5 * (R1 - R0);
   const Vector3d shift = 0.5 * (at_end - at_start);
-  const double rounding = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
   const double bend = (0.5 * (R0 + R1) - R).norm() * b.ball().radius;
 
+  rounding_ = kBoxRounding * (a.ball().radius + b.ball().radius + p_AB.norm());
   R_middle_ = R;
   p_middle_ = p_AB;
   R_AB_ = singleRows(R);
@@ -148,9 +148,8 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
   a_from_b_ = single(-(R.transpose() * p_AB));
   difference_A_ = singleRows(difference);
   shift_A_ = single(shift);
-  still_ = {};
-  still_.any = static_cast<float>(error + bend + rounding);
-  moving_ = {single(R.transpose() * shift), singleRows(R.transpose() * difference), still_.any,
+  moving_ = {single(R.transpose() * shift), singleRows(R.transpose() * difference),
+             static_cast<float>(error + bend + rounding_),
              static_cast<float>(std::sqrt(0.5) * (1.0 + 1e-6) * difference.norm())};
 }
 
@@ -166,6 +165,19 @@ PlacedBox MovingBoxes::boxInB(BoxTree::Slot box_a) const {
   box.center = sum(timesTransposed(R_AB_, box.center), a_from_b_);
   for (Floats& axis : box.axis) axis = timesTransposed(R_AB_, axis);
   return box;
+}
+
+/// How far the ends of a box's half extents are displaced more than its center, A's axes.
+Rows MovingBoxes::spreadInA(BoxTree::Slot box_b) const {
+  const BoxTree::Node& node = b_.node(box_b.node);
+  Rows spread;
+  for (int k = 0; k < 3; ++k) {
+    const float half = node.half[k][box_b.lane];
+    const Floats along = {half * node.axis[k][0][box_b.lane], half * node.axis[k][1][box_b.lane],
+                          half * node.axis[k][2][box_b.lane]};
+    spread[k] = times(difference_A_, along);
+  }
+  return spread;
 }
 
 /// A triangle of B from A's origin.
@@ -187,17 +199,24 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
   const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
   BoxMotion motion{};
   motion.shift = sum(times(difference_A_, center), shift_A_);
-  motion.any = moving_.any + moving_.any_per_reach * of_b.reach[box_b.lane];
-  boxGaps(node, boxInA(box_b), direction_A_, motion, cut, found);
+  motion.any = moving_.any;
+  const PlacedBox box = boxInA(box_b);
+  if (is_close_) directedBoxGaps(node, box, direction_A_, motion, spreadInA(box_b), cut, found);
+  motion.any += moving_.any_per_reach * of_b.reach[box_b.lane];
+  if (!is_close_) boxGaps(node, box, direction_A_, motion, cut, found);
   const RoundedTriangle* triangle = onlyTriangle(b_, box_b);
-  if (triangle && measures_triangles_ && found.near != 0)
+  if (triangle && is_close_ && found.near != 0)
     sharpen({placedInA(triangle->corners), triangle->radius}, of_b.reach[box_b.lane], node, motion, cut, found);
 }
 
 void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
-  boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+  if (is_close_) {
+    directedBoxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+  } else {
+    boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+  }
   const RoundedTriangle* triangle = onlyTriangle(a_, box_a);
-  if (triangle && measures_triangles_ && found.near != 0) {
+  if (triangle && is_close_ && found.near != 0) {
     const float reach = a_.node(box_a.node).reach[box_a.lane];
     sharpen({placedInB(triangle->corners), triangle->radius}, reach, node, moving_, cut, found);
   }
@@ -211,10 +230,11 @@ void MovingBoxes::setDirection(const Vector3d& n_A) {
 
 double MovingBoxes::supportA(double limit) const {
   const double from = n_A_.dot(a_.origin());
-  return support(a_, direction_A_, still_, limit,
-                 [&](const RoundedTriangle& t) { return reachAlong(n_A_, t.corners) + t.radius + error_ - from; });
+  return support(a_, direction_A_, {0.0F, {}, static_cast<float>(rounding_)}, limit,
+                 [&](const RoundedTriangle& t) { return reachAlong(n_A_, t.corners) + t.radius - from; });
 }
 
+/// The errors of both are taken off here.
 double MovingBoxes::supportB(double limit) const {
   const Floats against = {-direction_B_[0], -direction_B_[1], -direction_B_[2]};
   const double offset = -double(dot(direction_A_, b_from_a_));
@@ -222,7 +242,11 @@ double MovingBoxes::supportB(double limit) const {
                  to_end = -(poses_.X_AB_end.linear().transpose() * n_A_);
   const double from_start = n_A_.dot(a_.origin() - poses_.X_AB_start.translation()) - offset,
                from_end = n_A_.dot(a_.origin() - poses_.X_AB_end.translation()) - offset;
-  return support(b_, against, moving_, limit - offset,
+  // How far the middles of chords are from the boxes at the pose halfway, along the direction.
+  const double bend = (0.5 * (to_start + to_end) + R_middle_.transpose() * n_A_).norm() * b_.ball().radius;
+  const MotionAlong motion{dot(shift_A_, direction_A_), timesTransposed(difference_A_, direction_A_),
+                           static_cast<float>(error_ + bend + rounding_)};
+  return support(b_, against, motion, limit - offset,
                  [&](const RoundedTriangle& t) {
                    return std::max(reachAlong(to_start, t.corners) + from_start,
                                    reachAlong(to_end, t.corners) + from_end) +

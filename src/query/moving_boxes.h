@@ -19,9 +19,10 @@ class MovingBoxes {
   /// Sets a unit axis that boxGaps() tests on all boxes.
   void setDirection(const Vector3d& n_A);
 
-  /// From now on, where one box holds a single triangle that is larger than the node's boxes, the gaps are those
-  /// between these boxes and the triangle. That takes longer, but finds more boxes of a dense surface far from it.
-  void measureTriangles() { measures_triangles_ = true; }
+  /// From now on, displacements are bounded along each direction by itself, and where one box holds a single triangle
+  /// that is larger than the node's boxes, the gaps are those between these boxes and the triangle. That takes longer,
+  /// but finds more boxes apart: of surfaces that turn on each other, and of a dense surface.
+  void measureClosely() { is_close_ = true; }
 
   /// Upper bounds of A's extent along the direction, and of B's against it, from A's origin [m]; infinite above
   /// the limit, or if they take too many steps to find.
@@ -31,22 +32,23 @@ class MovingBoxes {
  private:
   PlacedBox boxInA(BoxTree::Slot box_b) const;
   PlacedBox boxInB(BoxTree::Slot box_a) const;
+  std::array<std::array<float, 3>, 3> spreadInA(BoxTree::Slot box_b) const;
   Corners placedInA(const Corners& corners_B) const;
   Corners placedInB(const Corners& corners_A) const;
 
   const BoxTree &a_, &b_;
   std::array<std::array<float, 3>, 3> R_AB_;          ///< rotation halfway, by rows
   std::array<float, 3> b_from_a_, a_from_b_;          ///< B's origin from A's, A's axes; A's from B's, B's axes
-  BoxMotion still_, moving_;                          ///< of A's boxes (errors only); of B's boxes, in B's frame
+  BoxMotion moving_;                                  ///< of B's boxes, in B's frame
   std::array<std::array<float, 3>, 3> difference_A_;  ///< as moving_'s, but displacements in A's axes, by rows
   std::array<float, 3> shift_A_;
   EndPoses poses_;
   Matrix3d R_middle_;  ///< rotation halfway, from B to A
   Vector3d p_middle_;  ///< B's origin from A's halfway, A's axes
-  double error_;
+  double error_, rounding_;
   Vector3d n_A_ = Vector3d::UnitZ();  ///< the direction
   std::array<float, 3> direction_A_{0, 0, 1}, direction_B_{0, 0, 1};
-  bool measures_triangles_ = false;
+  bool is_close_ = false;
 };
 
 }  // namespace sdf_ccd

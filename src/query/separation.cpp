@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/infinity.h"
+#include "hull_direction.h"
 #include "moving_boxes.h"
 #include "sdf_ccd/common/cancel.h"
 #include "triangle_pair.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
 constexpr std::size_t kManyNear = 192;  // with more near pairs the interval is halved and all boxes are tested again
 constexpr int kLongSearch = 64;         // after so many tests of triangles, boxes are tested more closely
+constexpr double kManyBends = 0.25;     // of the gap: boxes lose more to the chords than triangles
+constexpr int kLessOften = 8;
+constexpr int kTestsOfAPlane = 16;      // of triangles: takes about the same time
 constexpr int kMaxTestsWhenOpen = 512;  // upper bound of the tests for a crossing once kApart cannot be proved
 
 /// Part of the motion.
@@ -128,7 +132,16 @@ class SeparationQuery {
     MovingBoxes boxes(a_, b_, poses, chord_error_);
     if (witness_.near_a < 0) findNear(boxes);
     if (testWitness(boxes)) return;
+    const auto testHalves = [&] {
+      halve(times, poses, [this](const Times& half, const EndPoses& ends) { testBoxes(half, ends); });
+    };
+    if (plane_) {
+      const PlaneTest found = testPlane(boxes, *plane_);
+      if (found == PlaneTest::kApart) return;
+      if (found == PlaneTest::kApartAtEnds) return testHalves();
+    }
     const std::size_t known = memory_.near.size();
+    const int tests_before = tests_;
     memory_.stack.clear();
     memory_.stack.push_back({a_.root(), b_.root(), -std::numeric_limits<float>::infinity()});
     while (!memory_.stack.empty() && !isDone()) {
@@ -142,10 +155,15 @@ class SeparationQuery {
       descend(boxes, next);
       if (is_direction_new_) boxes.setDirection(direction_);
       is_direction_new_ = false;
-      if (tests_ > kLongSearch) boxes.measureTriangles();
-      if (memory_.near.size() - known <= kManyNear) continue;
+      if (tests_ > kLongSearch) boxes.measureClosely();
+      const bool is_too_long =
+          memory_.near.size() - known > kManyNear || (tests_ - tests_before > kLongSearch && bendsMuch());
+      const bool needs_plane = tests_ > (is_too_long ? next_plane_ : kLessOften * next_plane_) && !isDone();
+      const PlaneTest plane = needs_plane ? findPlane(boxes) : PlaneTest::kNone;
+      if (plane == PlaneTest::kNone && !is_too_long) continue;
       memory_.near.resize(known);
-      return halve(times, poses, [this](const Times& half, const EndPoses& ends) { testBoxes(half, ends); });
+      if (plane != PlaneTest::kApart) testHalves();
+      return;
     }
     filter();
     testExactly();
@@ -234,19 +252,55 @@ class SeparationQuery {
     if (!(gap > options_.margin)) return false;
     nearest_ = gap;
     cut_ = std::max(options_.margin, kCut * gap);
-    // The plane may lie anywhere in the gap: either surface may extend into it by half of what the cut distance leaves.
-    const double slack = 0.5 * (gap - cut_);
     double begin = -kInfinity;
     for (const Vector3d& p : a_.triangle(pair.a).corners) begin = std::max(begin, direction_.dot(p - a_.origin()));
-    begin += a_.triangle(pair.a).radius;
+    // The plane may lie anywhere in the gap: either surface may extend into it by half of what the cut distance leaves.
+    return isSlabFree(boxes, begin + a_.triangle(pair.a).radius, gap, 0.5 * (gap - cut_));
+  }
+
+  /// Whether A ends before a slab across the boxes' direction, and B begins behind it.
+  /// @param begin  from A's origin [m]. @param slack  how far either may extend into it [m].
+  bool isSlabFree(const MovingBoxes& boxes, double begin, double width, double slack) {
     const double reach_a = boxes.supportA(begin + slack);
     if (!(reach_a < kInfinity)) return false;
-    const double reach_b = boxes.supportB(-(begin + gap - slack));
+    const double reach_b = boxes.supportB(-(begin + width - slack));
     if (!(reach_b < kInfinity)) return false;
     const double apart = -reach_b - reach_a;
     if (!(apart > options_.margin)) return false;
     lowest_ = std::min(lowest_, apart);
     return true;
+  }
+
+  enum class PlaneTest {
+    kApart,        // all along the interval: proved
+    kApartAtEnds,  // and between them too, up to the deviation from chords
+    kNone,
+  };
+
+  PlaneTest testPlane(MovingBoxes& boxes, const Vector3d& n_A) {
+    tests_ += kTestsOfAPlane;
+    const ExtentsAlong along = extentsAlong(a_, b_, poses_, n_A);
+    if (!(along.gap() > options_.margin)) return PlaneTest::kNone;
+    const double gap = along.gap() - chord_error_, room = gap - options_.margin;
+    if (!(room > 0.5 * (along.gap() - options_.margin))) return PlaneTest::kApartAtEnds;
+    boxes.setDirection(n_A);
+    const bool is_free = isSlabFree(boxes, along.end_a, gap, 0.45 * room);
+    boxes.setDirection(direction_);
+    return is_free ? PlaneTest::kApart : PlaneTest::kNone;
+  }
+
+  /// With the direction in which the hulls are farthest apart: where triangles turn on each other, those that are
+  /// nearest to each other give no such direction.
+  PlaneTest findPlane(MovingBoxes& boxes) {
+    plane_ = hullDirection(a_, b_, poses_);
+    const PlaneTest found = plane_ ? testPlane(boxes, *plane_) : PlaneTest::kNone;
+    next_plane_ = 2 * tests_;
+    return found;
+  }
+
+  /// Whether chords deviate from the paths by much, compared with what is known of the distance.
+  bool bendsMuch() const {
+    return chord_error_ > kManyBends * std::max(nearest_ + chord_error_, 0.5 * options_.resolution);
   }
 
   // ---- triangles ----
@@ -283,6 +337,12 @@ class SeparationQuery {
     if (group.size == 0) return;
     closestGaps(poses_, group);
     const int size = group.size;
+    for (int i = 0; i < size; ++i) {
+      const Triangles& pair = memory_.exact_ids[i];
+      if (group.gap[i] - radii(pair) - chord_error_ > options_.margin) continue;
+      edgeGaps(poses_, group);
+      break;
+    }
     tests_ += size;
     group.size = 0;
     for (int i = 0; i < size; ++i) {
@@ -343,7 +403,9 @@ class SeparationQuery {
   bool is_direction_new_ = false;           // and not yet that of the boxes' tests
   double nearest_ = kInfinity;              // gap of the nearest triangles tested exactly
   double cut_ = 0.0;
-  double lowest_ = kInfinity;  // the smallest gap used in a proof
+  double lowest_ = kInfinity;      // the smallest gap used in a proof
+  std::optional<Vector3d> plane_;  // the direction of the last plane between the hulls
+  int next_plane_ = kLongSearch;   // the number of tests after which it is looked for
   int tests_ = 0, limit_ = 0;
   bool crossed_ = false, open_ = false;
   CancelTicks<1024> cancel_;

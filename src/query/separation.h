@@ -66,7 +66,11 @@ struct SeparationMemory {
 ///    |M − R| |p − o| of that pose. The chords extend by Δ(p) = (X_1 p − X_0 p)/2 to either side, of which only
 ///    n·Δ(p) matters along n. Within a box of reach ρ about c, |Δ(p) − Δ(c)| ≤ sin(θ/2) ρ, with θ the angle
 ///    between R_0 and R_1: the singular values of the difference of two rotations are 2 sin(θ/2), twice, and 0, so
-///    sin(θ/2) is its Frobenius norm over √8.
+///    sin(θ/2) is its Frobenius norm over √8. In a long search, that bound is taken along each direction by itself:
+///    with D = (R_1 − R_0)/2 and the box c ± h_1 a_1 ± h_2 a_2 ± h_3 a_3, |n·(Δ(p) − Δ(c))| ≤ Σ |n·D a_k| h_k, which
+///    vanishes for a rotation about n.
+///  - A plane between the surfaces as wholes: Δ(p) along its normal n is n·Δ(o) + w·(p − o), with w = Dᵀ n, and
+///    likewise n·(M − R)(p − o).
 ///  - A box and a single triangle: at that same pose, with n the direction from the triangle's closest point to the
 ///    box's center, less the box's reach ρ.
 ///  - Every pair of triangles is covered by a pair of boxes, or a pair of triangles, whose gap was found to exceed the
@@ -84,7 +88,9 @@ struct SeparationMemory {
 /// The proof of kCrossing: an edge pierces a triangle at a time (see crossingPoint()), or rounded triangles overlap.
 ///
 /// A branch is pruned if its gap exceeds 0.6 times that of the nearest known triangles. Before the descent, one plane
-/// between the nearest triangles of the last query is tested, which may separate the surfaces as a whole.
+/// between the nearest triangles of the last query is tested, which may separate the surfaces as a whole; in a long
+/// search, also one between their convex hulls (hull_direction.h). The interval is also halved where chords deviate
+/// from the paths by much, compared with the nearest known triangles.
 /// @param motion  frame F is A's, P is B's; the margin must cover the deviation of rotations from orthonormal ones.
 Separation separation(const BoxTree& a, const BoxTree& b, const TwoBodyMotion& motion, const SeparationOptions& options,
                       SeparationWitness& witness, SeparationMemory& memory);

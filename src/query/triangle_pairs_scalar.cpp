@@ -40,6 +40,11 @@ Vector3d normalOf(const Corners& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]);
 }
 
+/// In the triangle's plane, away from it across an edge.
+Vector3d outward(const Corners& t, int edge) {
+  return (t[(edge + 1) % 3] - t[edge]).cross(normalOf(t));
+}
+
 }  // namespace
 
 void planeGapsOneByOne(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs) {
@@ -64,6 +69,16 @@ void closestGapsOneByOne(const EndPoses& poses, TrianglePairs& pairs) {
   }
 }
 
+void edgeGapsOneByOne(const EndPoses& poses, TrianglePairs& pairs) {
+  for (int i = 0; i < pairs.size; ++i) {
+    const Pair pair(poses, pairs, i);
+    for (int k = 0; k < 3; ++k) {
+      pair.offer(outward(pair.a, k), i, pairs);
+      pair.offer(-outward(pair.middle, k), i, pairs);
+    }
+  }
+}
+
 #ifndef SDF_CCD_HIGHWAY
 void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs) {
   planeGapsOneByOne(poses, direction_A, pairs);
@@ -71,6 +86,10 @@ void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs
 
 void closestGaps(const EndPoses& poses, TrianglePairs& pairs) {
   closestGapsOneByOne(poses, pairs);
+}
+
+void edgeGaps(const EndPoses& poses, TrianglePairs& pairs) {
+  edgeGapsOneByOne(poses, pairs);
 }
 #endif
 

@@ -4,8 +4,9 @@
 
 namespace sdf_ccd {
 
-/// The same as planeGaps() and closestGaps(), one pair at a time.
+/// The same as planeGaps(), closestGaps() and edgeGaps(), one pair at a time.
 void planeGapsOneByOne(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs);
 void closestGapsOneByOne(const EndPoses& poses, TrianglePairs& pairs);
+void edgeGapsOneByOne(const EndPoses& poses, TrianglePairs& pairs);
 
 }  // namespace sdf_ccd

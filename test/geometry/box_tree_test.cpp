@@ -140,6 +140,28 @@ TEST(BoxTree, GapsOfBoxesAtACornerAreTheirDistance) {
   EXPECT_NEAR(found.gaps[0], std::hypot(d.y(), d.z()) - 0.01, 1e-6);
 }
 
+/// Boxes that turn about the axis along which they are apart stay as far apart, whichever of them turns.
+TEST(BoxTree, GapsOfBoxesThatTurnOnEachOtherAreTheirDistance) {
+  BoxTree::Node node{};
+  node.radius.fill(-1e30F);
+  node.radius[0] = 0.0F;
+  node.count = 1;
+  PlacedBox box{};
+  for (int k = 0; k < 3; ++k) {
+    node.axis[k][k].fill(box.axis[k][k] = 1.0F);
+    node.half[k][0] = box.half[k] = 0.2F;
+  }
+  node.reach[0] = box.reach = 0.35F;
+  box.center[2] = 0.41F;
+  const std::array<std::array<float, 3>, 3> turn = {{{0, -0.1F, 0}, {0.1F, 0, 0}, {}}},
+                                            spread = {{{0, 0.02F, 0}, {-0.02F, 0, 0}, {}}};
+  NearBoxes found;
+  directedBoxGaps(node, box, {1, 0, 0}, BoxMotion{{}, turn, 0.0F, 0.1F}, 0.0F, found);
+  EXPECT_NEAR(found.gaps[0], 0.01, 1e-6);
+  directedBoxGaps(node, box, {1, 0, 0}, BoxMotion{{}, {}, 0.0F, 0.1F}, spread, 0.0F, found);
+  EXPECT_NEAR(found.gaps[0], 0.01, 1e-6);
+}
+
 /// For points that move by no more than the motion's bounds.
 TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
   Random random(3);
@@ -165,13 +187,15 @@ TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
                      {single(turn.row(0)), single(turn.row(1)), single(turn.row(2))},
                      0.0F,
                      float(omega.norm() * 1.0001)};
+    const MotionAlong along{float(n.dot(shift)), single(turn.transpose() * n), 0.0F};
     const double rounding = kBoxRounding * (tree.ball().radius + one.ball().radius + between.norm());
     forEachBox(tree, tree.root(), [&](BoxTree::Slot slot, const std::vector<int>& below) {
-      NearBoxes found;
+      NearBoxes found, found_directed;
       BoxTree::Node::Lane supports;
       boxGaps(tree.node(slot.node), box, single(n), motion, 0.0F, found);
       const BoxTree::Node::Lane& gaps = found.gaps;
-      boxSupports(tree.node(slot.node), single(n), motion, supports);
+      directedBoxGaps(tree.node(slot.node), box, single(n), motion, 0.0F, found_directed);
+      boxSupports(tree.node(slot.node), single(n), along, supports);
       for (const double side : {-1.0, -0.3, 1.0})
         for (const int i : below) {
           RoundedTriangle t = tree.triangle(i);
@@ -179,8 +203,25 @@ TEST(BoxTree, GapsAndSupportsHoldAllAlongAMotion) {
             p += side * (shift + omega.cross(p - tree.origin()));
             EXPECT_LE(n.dot(p - tree.origin()) + t.radius - rounding, supports[slot.lane]);
           }
-          EXPECT_LE(gaps[slot.lane] - rounding, std::max<Real>(distance(t, other), 0));
+          const Real truth = std::max<Real>(distance(t, other), 0);
+          EXPECT_LE(gaps[slot.lane] - rounding, truth);
+          EXPECT_LE(found_directed.gaps[slot.lane] - rounding, truth);
         }
+      // The same motion of the other box instead, about its center.
+      std::array<std::array<float, 3>, 3> spread;
+      Vector3d center;
+      for (int k = 0; k < 3; ++k) {
+        center[k] = one.origin()[k] + double(one.node(0).center[k][0]);
+        spread[k] = single(omega.cross(Vector3d(box.axis[k][0], box.axis[k][1], box.axis[k][2])) * double(box.half[k]));
+      }
+      directedBoxGaps(tree.node(slot.node), box, single(n), {single(shift), {}, 0.0F, 0.0F}, spread, 0.0F,
+                      found_directed);
+      for (const double side : {-1.0, -0.3, 1.0}) {
+        RoundedTriangle moved = other;
+        for (Vector3d& p : moved.corners) p += side * (shift + omega.cross(p - center));
+        for (const int i : below)
+          EXPECT_LE(found_directed.gaps[slot.lane] - rounding, std::max<Real>(distance(tree.triangle(i), moved), 0));
+      }
     });
   }
 }

@@ -6,6 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/geometry/primitive.h"
 
 namespace sdf_ccd {
 namespace {
@@ -336,6 +337,92 @@ TEST(Separation, SurfacesThatLieOnEachOtherStayOpen) {
   slid.translation().x() = 0.003;
   Case c{&tree, &tree, Isometry3d::Identity(), Isometry3d::Identity(), Isometry3d::Identity(), slid};
   EXPECT_EQ(c.query().state, SeparationState::kOpen);
+}
+
+/// Parts of joints that turn on each other about z, a gap apart: `outer` rests, `inner` turns.
+struct JointParts {
+  const char* name;
+  TriangleMesh outer, inner;
+};
+
+std::vector<JointParts> jointParts(double radius, double gap) {
+  const TriangleMesh disc = tessellate(Cylinder{radius, 0.2 * radius}, 1e-4 * radius),
+                     thin = tessellate(Cylinder{radius, 0.2 * radius - gap}, 1e-4 * radius);
+  const TriangleMesh bracket =
+      test::translated(test::boxMesh({0.2 * radius, 0.4 * radius, radius}), {1.3 * radius, 0, 0.5 * radius});
+  const auto above = [&](double z) { return test::translated(disc, {0, 0, z}); };
+  return {{"faces", disc, above(0.4 * radius + gap)},
+          {"faces with a bracket beside", merged(disc, bracket), above(0.4 * radius + gap)},
+          {"fork", merged(above(0.4 * radius), above(-0.4 * radius)), thin}};
+}
+
+/// Faces of many triangles that turn on each other, as those of links on a joint. Bounds that were the same in all
+/// directions needed a test for each pair of triangles.
+TEST(Separation, PartsOfJointsThatTurnOnEachOtherAreApart) {
+  for (const double radius : {0.02, 0.1})
+    for (const double gap : {5e-4, 2e-3})
+      for (const JointParts& parts : jointParts(radius, gap))
+        for (const double turn : {0.003, 0.03, 0.1, 0.3}) {
+          const BoxTree a = treeOf(parts.outer), b = treeOf(parts.inner);
+          const Isometry3d tilted(Eigen::AngleAxisd(0.7, Vector3d(3, -1, 2).normalized())),
+              turned(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+          for (const bool is_exchanged : {false, true}) {
+            const Case c = is_exchanged ? Case{&b, &a, tilted, tilted * turned, tilted, tilted}
+                                        : Case{&a, &b, tilted, tilted, tilted, tilted * turned};
+            const Separation found = c.query();
+            ASSERT_EQ(found.state, SeparationState::kApart) << parts.name << " " << radius << " " << gap << " " << turn;
+            EXPECT_LE(found.distance, gap * (1.0 + 1e-9));
+            EXPECT_LT(found.tests, 12000) << parts.name << " " << radius << " " << gap << " " << turn;
+          }
+        }
+}
+
+/// The same of faces alone, closer and up to nearly half a revolution.
+TEST(Separation, FacesMayTurnByMuch) {
+  for (const double radius : {0.02, 0.1, 0.5}) {
+    const BoxTree disc = treeOf(tessellate(Cylinder{radius, 0.05}, 1e-4 * radius));
+    for (const double gap : {1e-4, 5e-4})
+      for (const double turn : {0.1, 1.0, 3.0})
+        for (const double aside : {0.0, 0.3}) {  // of the radius
+          Isometry3d start = Isometry3d::Identity(), end = start;
+          start.translation() = end.translation() = Vector3d(aside * radius, 0.0, 0.1 + gap);
+          end.linear() = Eigen::AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix();
+          const Case c{&disc, &disc, Isometry3d::Identity(), Isometry3d::Identity(), start, end};
+          const Separation found = c.query();
+          ASSERT_EQ(found.state, SeparationState::kApart) << radius << " " << gap << " " << turn << " " << aside;
+          EXPECT_LE(found.distance, gap * (1.0 + 1e-9));
+        }
+  }
+}
+
+/// Bounds of surfaces of many triangles, which long searches and planes between hulls prove.
+TEST(Separation, BoundsOfDenseSurfacesAreTrue) {
+  Shapes shapes;
+  shapes.trees.clear();
+  shapes.trees.push_back(treeOf(test::torusMesh(0.1, 0.03, 20, 10)));
+  shapes.trees.push_back(treeOf(test::icosphere(0.08, 2)));
+  shapes.trees.push_back(treeOf(tessellate(Cylinder{0.05, 0.01}, 1e-4)));
+  shapes.trees.push_back(treeOf(merged(tessellate(Cylinder{0.05, 0.01}, 1e-3),
+                                       test::translated(test::boxMesh({0.01, 0.02, 0.06}), {0.07, 0, 0.03})),
+                                2e-3));
+  Random random(11);
+  SeparationMemory memory;
+  long apart = 0, long_searches = 0;
+  for (int trial = 0; trial < 120; ++trial) {
+    const double turn = std::pow(10.0, test::uniform(random, -2.5, 0.2));
+    const Case c = draw(shapes, random, 0.03 * turn, turn, std::pow(10.0, test::uniform(random, -4, -2)));
+    SeparationWitness witness;
+    const Separation found = c.query({}, witness, memory);
+    long_searches += found.tests > 64;
+    if (found.state == SeparationState::kCrossing) {
+      ASSERT_EQ(c.distanceAt(found.s), 0.0L) << trial;
+    } else if (found.state == SeparationState::kApart) {
+      ++apart;
+      ASSERT_LE(found.distance, c.leastFound() + 1e-13L) << trial;
+    }
+  }
+  EXPECT_GT(apart, 20);
+  EXPECT_GT(long_searches, 40);
 }
 
 /// A dense shell around a box's corner is far from the box, but not along any axis of the box; and no plane separates

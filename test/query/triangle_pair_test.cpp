@@ -113,6 +113,12 @@ TEST(TrianglePair, LanesAreAsOneByOne) {
         ASSERT_NEAR(lanes.gap[i], scalar.gap[i], 1e-5) << trial;
       }
     }
+    edgeGaps(poses, lanes);
+    edgeGapsOneByOne(poses, scalar);
+    for (int i = 0; i < size; ++i) {
+      if (kKinds[(trial + i) % 5] != Kind::kGeneral && kKinds[(trial + i) % 5] != Kind::kNear) continue;
+      ASSERT_NEAR(lanes.gap[i], scalar.gap[i], 1e-5) << trial;
+    }
   }
 }
 
@@ -127,8 +133,10 @@ TEST(TrianglePair, LanesGapsHoldAtBothEnds) {
       pairs.add(drawn.back().first, drawn.back().second);
     }
     const EndPoses poses{test::pose(random, 0.1, 0.1), test::pose(random, 0.1, 0.1)};
-    for (const bool by_planes : {true, false}) {
-      by_planes ? planeGaps(poses, test::direction(random), pairs) : closestGaps(poses, pairs);
+    for (const int kind : {0, 1, 2}) {
+      if (kind == 0) planeGaps(poses, test::direction(random), pairs);
+      if (kind == 1) closestGaps(poses, pairs);
+      if (kind == 2) edgeGaps(poses, pairs);
       for (int i = 0; i < pairs.size; ++i) {
         if (pairs.gap[i] < 0.0) continue;
         for (const Isometry3d& X : {poses.X_AB_start, poses.X_AB_end}) {

@@ -126,6 +126,12 @@ struct Best {
     take(hn::And(sound, hn::Gt(before, gap)), before, scaled(n, real(-1.0)));
   }
 
+  HWY_INLINE void load(int first, const TrianglePairs& pairs) {
+    gap = hn::Load(d, pairs.gap.data() + first);
+    axis = Point(hn::Load(d, pairs.axis[0].data() + first), hn::Load(d, pairs.axis[1].data() + first),
+                 hn::Load(d, pairs.axis[2].data() + first));
+  }
+
   HWY_INLINE void store(int first, TrianglePairs& pairs) const {
     hn::Store(gap, d, pairs.gap.data() + first);
     hn::Store(axis.x, d, pairs.axis[0].data() + first);
@@ -200,6 +206,13 @@ HWY_INLINE void offerFace(const Triangle& face, const Triangle& corners, double 
   }
 }
 
+/// Offers the planes through the triangle's edges, across its face.
+/// @param sign  of the directions away from the triangle.
+HWY_INLINE void offerEdges(const Pairs& pairs, const Triangle& t, double sign, Best& best) {
+  const Point normal = scaled(cross(t.p[1] - t.p[0], t.p[2] - t.p[0]), real(sign));
+  for (int i = 0; i < 3; ++i) best.offer(pairs, cross(t.p[(i + 1) % 3] - t.p[i], normal), false);
+}
+
 void planeGapsOf(const EndPoses& poses, const Vector3d& direction, TrianglePairs& pairs) {
   for (int first = 0; first < pairs.size; first += static_cast<int>(hn::Lanes(d))) {
     const Pairs all(pairs, poses, first);
@@ -233,6 +246,17 @@ void closestGapsOf(const EndPoses& poses, TrianglePairs& pairs) {
   }
 }
 
+void edgeGapsOf(const EndPoses& poses, TrianglePairs& pairs) {
+  for (int first = 0; first < pairs.size; first += static_cast<int>(hn::Lanes(d))) {
+    const Pairs all(pairs, poses, first);
+    Best best;
+    best.load(first, pairs);
+    offerEdges(all, all.a, 1.0, best);
+    offerEdges(all, all.middle(), -1.0, best);
+    best.store(first, pairs);
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace sdf_ccd
@@ -243,6 +267,7 @@ namespace sdf_ccd {
 
 HWY_EXPORT(planeGapsOf);
 HWY_EXPORT(closestGapsOf);
+HWY_EXPORT(edgeGapsOf);
 
 void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs& pairs) {
   HWY_DYNAMIC_DISPATCH(planeGapsOf)(poses, direction_A, pairs);
@@ -250,6 +275,10 @@ void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs
 
 void closestGaps(const EndPoses& poses, TrianglePairs& pairs) {
   HWY_DYNAMIC_DISPATCH(closestGapsOf)(poses, pairs);
+}
+
+void edgeGaps(const EndPoses& poses, TrianglePairs& pairs) {
+  HWY_DYNAMIC_DISPATCH(edgeGapsOf)(poses, pairs);
 }
 
 }  // namespace sdf_ccd

@@ -50,4 +50,8 @@ void planeGaps(const EndPoses& poses, const Vector3d& direction_A, TrianglePairs
 /// positions at both ends: the gap along it is nearly the largest.
 void closestGaps(const EndPoses& poses, TrianglePairs& pairs);
 
+/// Raises gaps that are known to those across edges, in the planes of the faces: closest points give no gap where
+/// triangles slide along each other by more than they are apart.
+void edgeGaps(const EndPoses& poses, TrianglePairs& pairs);
+
 }  // namespace sdf_ccd
