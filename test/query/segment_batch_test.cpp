@@ -57,6 +57,35 @@ std::vector<Segment> randomSegments(const DistanceField& field, int count) {
   return segments;
 }
 
+/// Fields of boxes with faces on planes of the grid, where samples are exactly zero.
+std::vector<DistanceField> boxesOnTheGrid() {
+  std::vector<DistanceField> fields;
+  for (const int cells : {10, 16, 20, 64})
+    for (const Vector3d& half : {Vector3d(0.5, 0.5, 0.5), {0.5, 0.4, 0.2}}) {
+      FieldOptions options;
+      options.cells = cells;
+      fields.push_back(buildField(test::boxMesh(half), options));
+    }
+  return fields;
+}
+
+/// Segments that pass through a box near one of its edges.
+std::vector<Segment> segmentsAcrossEdges(const DistanceField& field, int count) {
+  Random random(31);
+  const AlignedBox3d box = field.surfaceBox();
+  const double cell = field.box().sizes().maxCoeff() / 30.0;
+  std::vector<Segment> segments;
+  for (int i = 0; i < count; ++i) {
+    const int along = i % 3;
+    Vector3d edge = box.corner(static_cast<AlignedBox3d::CornerType>(random() % 8));
+    edge[along] = test::uniform(random, box.min()[along], box.max()[along]);
+    const Vector3d middle = edge + test::uniform(random, 0.0, 2.0) * cell * test::direction(random);
+    const Vector3d half = test::uniform(random, 0.2, 6.0) * cell * test::direction(random);
+    segments.push_back({middle - half, middle + half});
+  }
+  return segments;
+}
+
 /// The interpolated field minus sigma, at time t of a segment [m].
 double valueAt(const DistanceField& field, const Segment& s, double t, double sigma) {
   return field.sample(s.start + t * (s.end - s.start)).value - sigma;
@@ -115,6 +144,9 @@ Compared compare(const DistanceField& field, const std::vector<Segment>& segment
   for (const SegmentHit& hit : all.hits) {
     EXPECT_GE(hit.segment, last);
     EXPECT_LE(hit.enter, hit.exit);
+    if (!batch[hit.segment].empty()) {
+      EXPECT_GE(hit.enter, batch[hit.segment].back().exit);
+    }
     last = hit.segment;
     batch[hit.segment].push_back({hit.enter, hit.exit});
   }
@@ -148,6 +180,17 @@ TEST(SegmentBatch, EqualsSingleQueries) {
       EXPECT_GT(compared.hits, 3000);
       EXPECT_LT(compared.differing, 30);  // grazing, or two leaves whose values differ at their face
     }
+  }
+}
+
+/// In a cell with a sample of exactly zero, a segment may enter or leave where its value is zero at the cell's face.
+TEST(SegmentBatch, EqualsSingleQueriesWhereFacesLieOnTheGrid) {
+  for (const DistanceField& field : boxesOnTheGrid()) {
+    const std::vector<Segment> segments = segmentsAcrossEdges(field, 20000);
+    const Compared compared = compare(field, segments, 0.0);
+    EXPECT_GT(compared.hits, 3000);
+    EXPECT_LT(compared.differing, 2000) << "by hits of no length beside others";
+    if (testing::Test::HasFailure()) break;
   }
 }
 
@@ -217,6 +260,7 @@ TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
 TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
   const DistanceField field = torus(), even = uniformTorus();
   const std::vector<Segment> segments = randomSegments(field, 4000);
+  const std::vector<DistanceField> boxes = boxesOnTheGrid();
   int kinds = 0;
   for (std::int64_t targets = hwy::SupportedTargets() & HWY_TARGETS; targets != 0; targets &= targets - 1) {
     const std::int64_t target = targets & -targets;
@@ -225,6 +269,7 @@ TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     EXPECT_GT(compare(field, segments, 0.0).hits, 300);
     EXPECT_GT(compare(even, segments, 0.0).hits, 300);
+    for (const DistanceField& box : boxes) EXPECT_GT(compare(box, segmentsAcrossEdges(box, 3000), 0.0).hits, 300);
     ++kinds;
   }
   hwy::SetSupportedTargetsForTest(0);

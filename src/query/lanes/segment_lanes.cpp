@@ -128,7 +128,8 @@ class Follower {
     }
     const MI was = asWhole(hn::Ge(lanes.enter, real(0.0F)));
     const MI begin = hn::And(of, hn::AndNot(was, inside)), end = hn::And(of, hn::AndNot(inside, was));
-    if (!hn::AllFalse(n, end)) append(end, lanes.id, lanes.enter, t, work_.hits);
+    // Where a hit is as short as rounding, t may be the earlier one.
+    if (!hn::AllFalse(n, end)) append(end, lanes.id, lanes.enter, hn::Max(t, lanes.enter), work_.hits);
     lanes.enter = hn::IfThenElse(asReal(end), real(-1.0F), hn::IfThenElse(asReal(begin), t, lanes.enter));
     return none();
   }
@@ -305,7 +306,7 @@ class Follower {
     const auto timeOf = [&](double u) { return static_cast<float>(start + u * (double(end) - double(start))); };
     const bool at_start = found.count > 0 && found.interval[0].enter == 0.0;
     if (enter >= 0.0F && !at_start) {
-      work_.hits.add(id, enter, start);
+      work_.hits.add(id, enter, std::max(enter, start));
       enter = -1.0F;
     }
     for (int i = 0; i < found.count; ++i) {
@@ -316,7 +317,7 @@ class Follower {
         return true;
       }
       if (span.exit == 1.0) return false;
-      work_.hits.add(id, enter, timeOf(span.exit));
+      work_.hits.add(id, enter, std::max(enter, timeOf(span.exit)));
       enter = -1.0F;
     }
     return false;
