@@ -51,6 +51,41 @@ double nonPositiveParameter(const ConvexLine& f, double touch) {
   return -1.0;
 }
 
+/// The distance of a moving point from a center, or from an axis that it is projected along.
+class RoundLine {
+ public:
+  /// @param start  from the center. @param displacement  over the parameters 0 to 1.
+  RoundLine(const Vector3d& start, const Vector3d& displacement)
+      : a_(displacement.squaredNorm()), b_(start.dot(displacement)), c_(start.squaredNorm()) {}
+
+  /// Adds the parameter of the closest approach, and some about it: the direction to the center turns by 90 degrees
+  /// while the point moves by twice its least distance.
+  template <class Add>
+  void addTurns(const Add& add) const {
+    if (!(a_ > 0.0)) return;
+    const double nearest = -b_ / a_, least = std::sqrt(std::max(0.0, c_ + b_ * nearest) / a_);
+    add(nearest);
+    for (const double share : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+      add(nearest - share * least);
+      add(nearest + share * least);
+    }
+  }
+
+  /// Adds the parameters t at which the distance is ± (offset + slope t).
+  template <class Add>
+  void addCrossings(double offset, double slope, const Add& add) const {
+    const double a = a_ - slope * slope, b = b_ - offset * slope, c = c_ - offset * offset;
+    const double discriminant = b * b - a * c;
+    if (!(discriminant >= 0.0)) return;
+    const double s = -(b + std::copysign(std::sqrt(discriminant), b));  // the form that does not cancel
+    if (a != 0.0) add(s / a);
+    if (s != 0.0) add(c / s);
+  }
+
+ private:
+  double a_, b_, c_;  // of the squared distance, a t² + 2 b t + c
+};
+
 }  // namespace
 
 void primitiveIntervals(const Primitive& primitive, const Segment& segment, const SegmentOptions& options,
@@ -98,6 +133,19 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
   }
   constexpr int kPieces = 8;
   for (int i = 1; i < kPieces; ++i) add(interval.enter + (interval.exit - interval.enter) * i / kPieces);
+  const Cylinder* cylinder = std::get_if<Cylinder>(&primitive);
+  const Vector3d across(1.0, 1.0, cylinder ? 0.0 : 1.0);  // the axes in which the surface is round
+  const RoundLine line(segment.start.cwiseProduct(across), (segment.end - segment.start).cwiseProduct(across));
+  line.addTurns(add);
+  if (cylinder) {
+    // Inside, the distance is the larger one of that from the side and those from both caps.
+    const double z = segment.start.z(), slope = segment.end.z() - z;
+    if (slope != 0.0) add(-z / slope);
+    const double free = cylinder->radius - cylinder->half_length;
+    line.addCrossings(free + z, slope, add);
+    line.addCrossings(free - z, -slope, add);
+  }
+  std::sort(breaks.begin(), breaks.end());
 }
 
 }  // namespace sdf_ccd
