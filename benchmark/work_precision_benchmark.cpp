@@ -11,6 +11,9 @@
 #include "precision/studies.h"
 #include "segment_system.h"
 #include "study.h"
+#ifdef SDF_CCD_WITH_FCL
+#include "impact_study.h"
+#endif
 
 namespace sdf_ccd::benchmark {
 namespace {
@@ -88,12 +91,21 @@ void draw(const StudyResult& result, const std::string& mesh, const std::string&
   precision::runGnuplot(precision::plotScript(result, directory + "/" + mesh + "_" + result.study + ".svg"));
 }
 
-/// Joins the studies of both kinds of fields into one plot. A system without settings is in both, and added only once.
-void addTo(StudyResult& fields, const StudyResult& result) {
-  const bool first = fields.rows.empty();
+/// Joins studies into one plot. A system without settings is in those of both kinds of fields, and added only once.
+void addTo(StudyResult& joined, const StudyResult& result) {
+  const bool first = joined.rows.empty();
   for (const Measurement& row : result.rows) {
-    if (first || !row.setting.empty()) fields.rows.push_back(row);
+    if (first || !row.setting.empty()) joined.rows.push_back(row);
   }
+}
+
+/// The tool's studies, and those that need other libraries for the exact values.
+std::vector<precision::Study> allStudies() {
+  std::vector<precision::Study> studies = precision::studies();
+#ifdef SDF_CCD_WITH_FCL
+  studies.push_back({"impact", "time of impact of two bodies in a monitor's cycle", &impactStudy});
+#endif
+  return studies;
 }
 
 void study(const NamedMesh& named, const StudyOptions& options) {
@@ -103,15 +115,15 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   input.queries = int(options.segments);
   input.quick = options.quick;
   input.peers = {&meshHits, &gridHits, &gridDistances, &impacts};
-  StudyResult fields{"fields", "Error against the exact mesh over run time: " + named.name, "", "segment or place", {}};
-  for (const precision::Study& study : precision::studies()) {
+  StudyResult joined{"fields", "Error against the exact mesh over run time: " + named.name, "", "query", {}};
+  for (const precision::Study& study : allStudies()) {
     if (!isWanted(options.cases, study.name)) continue;
     const StudyResult result = study.run(input);
     printRows(named.name, result);
-    if (result.study == "cell" || result.study == "max-error") addTo(fields, result);
+    if (isWanted({"cell", "max-error", "impact"}, result.study)) addTo(joined, result);
     if (!options.plots.empty()) draw(result, named.name, options.plots);
   }
-  if (!options.plots.empty() && !fields.rows.empty()) draw(fields, named.name, options.plots);
+  if (!options.plots.empty() && !joined.rows.empty()) draw(joined, named.name, options.plots);
 }
 
 }  // namespace

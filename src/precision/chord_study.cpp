@@ -8,10 +8,10 @@
 #include "common/number_text.h"
 #include "contact_query.h"
 #include "exact_surface.h"
+#include "impact_measurement.h"
 #include "motion/time_at.h"
 #include "sdf_ccd/field/build_field.h"
 #include "studies.h"
-#include "timing.h"
 
 namespace sdf_ccd::precision {
 namespace {
@@ -38,19 +38,13 @@ double exactImpact(const ExactSurface& mesh, const PointShell& shell, const Scre
   return first;
 }
 
-struct ExactMotion {
-  Motion motion;
-  double impact;  ///< time of impact, in (0, 1)
-  double travel;  ///< upper bound of the travel of all points [m]
-};
-
 /// Random motions of copies of the body that rotate into it by 0.3 to 1.5 rad, starting 0.02 to 0.1 of the side apart.
-std::vector<ExactMotion> motions(const ExactSurface& mesh, const DistanceField& field, const TreeShell& shell,
+std::vector<ExactImpact> motions(const ExactSurface& mesh, const DistanceField& field, const TreeShell& shell,
                                  const BoundingBall& ball, int count) {
   const double side = field.surfaceBox().sizes().maxCoeff();
   const Vector3d middle = field.surfaceBox().center();
   Random random(4);
-  std::vector<ExactMotion> found;
+  std::vector<ExactImpact> found;
   for (int tries = 0; int(found.size()) < count; ++tries) {
     if (tries > 50 * count) throw std::runtime_error("copies of the body do not touch when they rotate");
     const Matrix3d R = rotation(random);
@@ -121,7 +115,7 @@ StudyResult chordStudy(const StudyInput& input) {
   const TreeShell shell(input.mesh, kSpacing * side);
   const BoundingBall ball = ballOf(shell.shell, field.surfaceBox().center());
   const ExactSurface mesh(input.mesh);
-  const std::vector<ExactMotion> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 40));
+  const std::vector<ExactImpact> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 40));
   input.progress(0.6);
 
   std::vector<ImpactSystem> systems;
@@ -135,40 +129,7 @@ StudyResult chordStudy(const StudyInput& input) {
   if (input.peers.impacts) {
     for (ImpactSystem& peer : input.peers.impacts(input.mesh, input.mesh)) systems.push_back(std::move(peer));
   }
-  std::vector<std::vector<double>> found(systems.size(), std::vector<double>(exact.size()));
-  std::vector<std::function<void()>> tasks;
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    tasks.push_back([&, k] {
-      for (std::size_t i = 0; i < exact.size(); ++i) {
-        found[k][i] = systems[k].impact(exact[i].motion.X_FP_start, exact[i].motion.X_FP_end);
-      }
-    });
-  }
-  const std::vector<double> seconds =
-      secondsPerQuery(tasks, exact.size(), [&](double share) { input.progress(0.6 + 0.4 * share); });
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    const Label& label = systems[k].label;
-    Measurement row{"time of impact (length of travel)",
-                    "m",
-                    label.system,
-                    label.setting,
-                    label.value,
-                    seconds[k],
-                    ErrorSummary{},
-                    label.bound,
-                    0};
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-      if (found[k][i] >= 0.0) {
-        errors.push_back(std::abs(found[k][i] - exact[i].impact) * exact[i].travel);
-      } else {
-        ++row.missed;
-      }
-    }
-    if (errors.empty()) continue;
-    row.error = summarize(std::move(errors));
-    result.rows.push_back(row);
-  }
+  result.rows = measureImpacts(systems, exact, [&](double share) { input.progress(0.6 + 0.4 * share); });
   return result;
 }
 
