@@ -6,6 +6,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
+#include "common/infinity.h"
 #include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
@@ -101,11 +102,15 @@ class MotionChecker {
     found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
     if (result.verdict <= found.verdict) return;
     found.verdict = result.verdict;
-    const auto worst = std::find_if(result.pairs.begin(), result.pairs.end(),
-                                    [&](const PairResult& pair) { return pair.verdict == result.verdict; });
-    if (worst == result.pairs.end()) return;
-    found.pair = static_cast<int>(worst - result.pairs.begin());
-    found.time = motion.waypoints[first] + (worst->intervals.empty() ? 0.0 : worst->intervals.front().enter);
+    double earliest = kInfinity;
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+      const PairResult& pair = result.pairs[i];
+      const double begin = pair.intervals.empty() ? 0.0 : pair.intervals.front().enter;
+      if (pair.verdict != result.verdict || !(begin < earliest)) continue;
+      earliest = begin;
+      found.pair = static_cast<int>(i);
+      found.time = motion.waypoints[first] + begin;
+    }
   }
 
   Monitor monitor_;

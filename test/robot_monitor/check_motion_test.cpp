@@ -246,6 +246,20 @@ TEST_F(CheckMotionsTest, EachIsAsIfAlone) {
   EXPECT_GT(contact, 20);
 }
 
+/// Of two posts that are hit within one piece of the motion, the first one in time is told, not the first one in order.
+TEST_F(CheckMotionsTest, TheFirstOfSeveralContactsIsTold) {
+  std::vector<BodyDescription> two = {post("base", 2.0), post("base", 2.12)};
+  two[1].name = "other";
+  const std::shared_ptr<const Scene> scene = sceneOf(two);
+  const auto turned = [&](double start, double end) {
+    const auto motion = [&](std::size_t, double tolerance) { return motionOf(*scene, {start, end}, tolerance); };
+    const MotionVerdict found = checkMotions(scene, {}, 1, motion).at(0);
+    return scene->bodies[scene->pairs[std::size_t(found.pair)].body_b].name;
+  };
+  EXPECT_EQ(turned(1.9, 2.2), "post");
+  EXPECT_EQ(turned(2.2, 1.9), "other");
+}
+
 TEST_F(CheckMotionsTest, TheSameOnOneThread) {
   const auto all = turns(200);
   const std::vector<MotionVerdict> many = check(all);
