@@ -17,6 +17,7 @@ struct OverlappingPair {
 };
 
 /// Overlapping pairs of links of the scene, and neighbours (RobotModel::neighbours()) whose surfaces come within 1 mm.
+/// Neighbours that come so close in some states and enter each other by more than that in others are not `always`.
 /// Pairs with a planar, floating or unlimited prismatic joint between them, and adjacent links, are never `always`.
 /// @param scene  bodies whose names are links; others are skipped.
 /// @param states  number of random states, by JointSampler, until a pair is found apart: a pair that is apart in one of

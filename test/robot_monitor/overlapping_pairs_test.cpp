@@ -101,8 +101,10 @@ TEST(OverlappingPairs, AreLeftOutAndTold) {
   EXPECT_TRUE(cart.has("base arm"));
   ASSERT_EQ(cart.scene.left_out.size(), left_out + 1);
   EXPECT_EQ(cart.scene.left_out.back().what, "pair base - wheel");
-  EXPECT_EQ(cart.scene.left_out.back().reason,
-            "overlap at rest and in all of 200 random states, which is no proof for others");
+  EXPECT_EQ(
+      cart.scene.left_out.back().reason,
+      "overlap, or as neighbours come within 1 mm, at rest and in all of 200 random states, which is no proof for "
+      "others");
   ASSERT_EQ(cart.scene.warnings.size(), 2u);
   EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30 mm)"), std::string::npos) << cart.scene.warnings[0];
   EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
@@ -175,6 +177,27 @@ TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {
   leaveOutOverlapping(cart.robot, {}, cart.scene);
   EXPECT_TRUE(cart.has("caster wheel")) << "they overlap always, but are checked by request";
   EXPECT_FALSE(cart.has("base wheel"));
+}
+
+/// A carriage 0.5 mm above its rail, with a link without a shape between: what it does to the rail's stop must be
+/// checked.
+TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
+  const auto pairsOf = [](double stop) {  // where the stop begins, along the rail
+    const std::string rail =
+        "<link name='rail'><collision><geometry><box size='6 0.1 0.1'/></geometry></collision>"
+        "<collision><origin xyz='" +
+        std::to_string(stop + 0.1) + " 0 0.1'/><geometry><box size='0.2 0.1 0.1'/></geometry></collision></link>";
+    const RobotModel robot("<robot name='slide'>" + rail + "<link name='motor'/>" +
+                           joint("rail", "motor", "fixed", "0 0 0") + box("car", "0.2 0.1 0.1", "0 0 0.1005") +
+                           joint("motor", "car", "prismatic", "0 0 0", "1 0 0") + "</robot>");
+    std::vector<std::string> warnings;
+    const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+    Scene scene = buildScene(description, planScene(description), coarse());
+    leaveOutOverlapping(robot, {}, scene);
+    return scene.pairs.size();
+  };
+  EXPECT_EQ(pairsOf(0.7), 1U);  // the car's front reaches 1.1 m
+  EXPECT_EQ(pairsOf(2.0), 0U);
 }
 
 }  // namespace
