@@ -144,13 +144,13 @@ std::vector<ImpactSystem> cycleSystems(const TriangleMesh& mesh) {
     added.impact = [system](const Isometry3d& start, const Isometry3d& end) { return (*system)(start, end); };
   };
   for (const double accuracy : {0.02, 0.01, 0.005, 0.0025})
-    add("sdf_ccd monitor, points (contact/accuracy)", accuracy, optionsForContacts(accuracy), {}, Refinement::kNone);
+    add("sdf_ccd monitor by points (contact/accuracy)", accuracy, optionsForContacts(accuracy), {}, Refinement::kNone);
   for (const double max_error : {1e-2, 1e-3, 1e-4, kMinMaxError}) {
     MonitorOptions options;
     options.max_error = max_error;
     BodyOptions bodies = optionsForContacts();
     bodies.exact_depths = true;
-    add("sdf_ccd monitor, triangles (max_error)", max_error, bodies, options, Refinement::kDeepest);
+    add("sdf_ccd monitor by triangles (max_error)", max_error, bodies, options, Refinement::kDeepest);
   }
   return systems;
 }

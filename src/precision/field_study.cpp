@@ -142,7 +142,7 @@ HitSystem batched(Label label, const DistanceField& field) {
   return {label, [field](const std::vector<Segment>& segments, std::vector<double>& times) {
             thread_local BatchResult batch;
             times.assign(segments.size(), -1.0);
-            segmentIntervals(field, segments.data(), segments.size(), {}, batch);
+            segmentIntervals(field, segments.data(), segments.size(), {0.0, SegmentMode::kFirst}, batch);
             for (const SegmentHit& hit : batch.hits) times[hit.segment] = hit.enter;
           }};
 }
