@@ -64,7 +64,7 @@ void ContactSearch::run(const StepMotion& motion, const std::function<void(const
     shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
     if (!query_.touches()) continue;
     listHits(query_, hits_);
-    visit({role.shell_body, role.field_body, role.weight, path_, hits_});
+    visit({role.shell_body, role.field_body, role.weight, chords.tolerance, path_, hits_});
   }
 }
 

@@ -13,6 +13,7 @@ struct RoleHits {
   int shell_body;
   int field_body;
   double weight;          ///< ½ if the other role finds the same contact too (design §3.7)
+  double tolerance;       ///< of the path's chords [m]
   const ChordPath& path;  ///< X_FP
   const std::vector<ShellHit>& hits;
 };

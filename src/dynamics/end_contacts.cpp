@@ -40,18 +40,18 @@ class EndContacts {
     contact.r_F = R_OF_ * p_F;
     Vector3d slope_F = slopeAt(at_end, inward_F);
     const bool stood_still = end.X_FP_end.matrix() == role_.path.chords.front().X_FP_start.matrix();
-    if (!stood_still) {
-      const Vector3d entry_F = pointAt(*first, first->interval.enter);
+    for (const ShellHit* hit = first; hit <= last && !stood_still;) {
+      const ShellHit* const left = lastOfStay(hit, last);
+      const Vector3d entry_F = pointAt(*hit, hit->interval.enter);
       const FieldValue at_entry = field_.interpolate(entry_F);
-      const FieldValue at_exit = field_.interpolate(pointAt(*last, last->interval.exit));
       const Vector3d normal_F = slopeAt(at_entry, inward_F).normalized();
-      if (slopeAt(at_exit, inward_F).dot(normal_F) < 0.0) {
-        const double behind = std::min(at_entry.value, 0.0) + normal_F.dot(p_F - entry_F);
-        if (behind < contact.gap) {
-          contact.gap = behind;
-          slope_F = normal_F;
-        }
+      const double behind = std::min(at_entry.value, 0.0) + normal_F.dot(p_F - entry_F);
+      if (behind < contact.gap && isHeld(hit, left, contact.gap - behind, normal_F, inward_F)) {
+        contact.gap = behind;
+        slope_F = normal_F;
+        break;
       }
+      hit = left + 1;
     }
     contact.slope = R_OF_ * slope_F;
     return contact;
@@ -62,6 +62,29 @@ class EndContacts {
     const Chord& chord = role_.path.chords[hit.chord];
     const Vector3d& p_P = shell_.points[hit.point];
     return (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
+  }
+
+  /// The hits of one stay inside: the next begins where the one before ends, on the next chord.
+  static const ShellHit* lastOfStay(const ShellHit* hit, const ShellHit* last) {
+    constexpr double kSame = 1e-6;  // of a chord
+    while (hit < last && hit[1].chord == hit->chord + 1 && hit->interval.exit > 1.0 - kSame &&
+           hit[1].interval.enter < kSame) {
+      ++hit;
+    }
+    return hit;
+  }
+
+  /// Whether the plane of its entry holds a point that is farther behind it, by `more`, than the field tells: it left
+  /// by an opposite face, or was deeper than by what a path beside an edge can be off. (The middle of a chord's piece
+  /// in a convex solid has at least half of its greatest depth.)
+  bool isHeld(const ShellHit* first, const ShellHit* last, double more, const Vector3d& normal_F,
+              const Vector3d& inward_F) const {
+    const double graze = role_.tolerance + field_.errorBound();
+    for (const ShellHit* hit = first; hit <= last && more > graze; ++hit) {
+      const double middle = 0.5 * (hit->interval.enter + hit->interval.exit);
+      if (field_.interpolate(pointAt(*hit, middle)).value < -graze) return true;
+    }
+    return slopeAt(field_.interpolate(pointAt(*last, last->interval.exit)), inward_F).dot(normal_F) < 0.0;
   }
 
   double timeInside(const ShellHit* first, const ShellHit* last) const {

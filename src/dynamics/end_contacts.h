@@ -27,8 +27,9 @@ struct PairContacts {
 /// All contacts of a motion, at its end; for bodies at rest, those of a pose.
 ///
 /// A point that has left the solid on the side where it entered is listed with no gap (but with its damping). A point
-/// that passed through, for example through a thin plate, is held by the plane where it entered: its gap is negative
-/// whatever the field is at its end.
+/// that passed through is held by the plane where it entered: its gap is negative whatever the field is at its end. It
+/// has passed if it left by a face opposite to that plane, as those of a thin plate, or if it was deeper inside than
+/// the error of its path and field, as in a corner; past an edge that it only grazed it goes on.
 void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearch& search,
                  std::vector<PairContacts>& contacts);
 

@@ -9,6 +9,7 @@ namespace {
 constexpr int kMaxSolves = 20;
 constexpr int kMaxShortenings = 6;         // of one Newton step
 constexpr int kMaxHalvings = 8;            // of the time step
+constexpr double kPassed = 0.1;            // distance behind a plane, relative to the smaller body's radius
 constexpr double kConverged = 1e-13;       // remaining gain of a Newton step, relative to the energies
 constexpr double kEnergyRounding = 1e-10;  // relative to the energies
 
@@ -49,7 +50,7 @@ class ImplicitIntegrator : public Integrator {
     const std::vector<BodyState> start = states;
     const double elastic_at_start = elastic_energy_;
     std::vector<Wrench> impulses;
-    solveStep(duration, step, states, impulses, report);
+    const bool solved = solveStep(duration, step, states, impulses, report);
     const double elastic_at_end = elasticEnergy(contacts_);
     double energies = elastic_at_start + elastic_at_end, growth = elastic_at_end - elastic_at_start;
     for (std::size_t b = 0; b < states.size(); ++b) {
@@ -63,7 +64,8 @@ class ImplicitIntegrator : public Integrator {
       energies += before + after + std::abs(work);
       growth += after - before - work;
     }
-    if (growth > kEnergyRounding * energies) {
+    const bool grew = growth > kEnergyRounding * energies;
+    if (grew || (!solved && pointsPass())) {
       if (halvings < kMaxHalvings) {
         states = start;
         elastic_energy_ = elastic_at_start;
@@ -71,14 +73,27 @@ class ImplicitIntegrator : public Integrator {
         advancePart(0.5 * duration, step, halvings + 1, states, report);
         return;
       }
-      report.energy_excess += growth;
+      if (grew) report.energy_excess += growth;
     }
     elastic_energy_ = elastic_at_end;
     for (std::size_t b = 0; b < states.size(); ++b) report.impulses[b] += impulses[b];
   }
 
+  /// Whether points pass through a solid: they end far behind the planes that hold them.
+  bool pointsPass() const {
+    for (const PairContacts& pair : contacts_) {
+      const double size = std::min(world_.bodies[pair.shell_body].shape->ball.radius,
+                                   world_.bodies[pair.field_body].shape->ball.radius);
+      for (const PointContact& point : pair.points) {
+        if (point.depth - point.gap > kPassed * size) return true;
+      }
+    }
+    return false;
+  }
+
   /// One step to the minimum of Φ, from `states`. Leaves the contacts at its end in contacts_, the motion in motion_.
-  void solveStep(double duration, long step, std::vector<BodyState>& states, std::vector<Wrench>& impulses,
+  /// False if it stops before a minimum.
+  bool solveStep(double duration, long step, std::vector<BodyState>& states, std::vector<Wrench>& impulses,
                  StepReport& report) {
     const std::vector<BodyState> start = states;
     const VelocitySystem system(world_, start, duration);
@@ -122,7 +137,7 @@ class ImplicitIntegrator : public Integrator {
       impulses = solution.impulses;
       if (solution.decrease <= kConverged * (scale + merit)) {
         move(V + solution.change);
-        break;
+        return true;
       }
       bool lower = false;
       double share = 1.0;
@@ -141,8 +156,9 @@ class ImplicitIntegrator : public Integrator {
       }
       if (lower) continue;
       moveTo(V);  // on an edge of the field, where its slope jumps, no lower value exists
-      break;
+      return false;
     }
+    return contacts_.empty();
   }
 
   using Vector = VelocitySystem::Vector;

@@ -121,6 +121,54 @@ TEST(Integrator, ActionEqualsReactionAndMomentumStays) {
   }
 }
 
+/// Depth of a point in a cube about the origin [m]; negative outside.
+double depthInCube(double half_size, const Vector3d& p) {
+  return half_size - p.cwiseAbs().maxCoeff();
+}
+
+TEST(Integrator, ImplicitLetsNoBallThroughACubeWhereverItWouldLeave) {
+  const double half_size = 0.05, step = 0.01;
+  RigidBody cube = primitiveBody("cube", Box{Vector3d::Constant(half_size)}, 1000.0, 0.02);
+  cube.fixed = true;
+  RigidWorld world;
+  world.gravity.setZero();
+  world.contact.stiffness = 1e9;
+  world.bodies = {cube, primitiveBody("ball", Sphere{0.005}, 2000.0, 0.002)};
+  Random random(7);
+  for (const double travel : {0.02, 0.05, 0.1, 0.2}) {  // in a step
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d towards = direction(random), through = 0.8 * half_size * direction(random);
+      const Vector3d start = through - (0.3 + uniform(random, 0.0, travel)) * towards;
+      Simulation simulation(world, {at(Vector3d::Zero()), at(start, travel / step * towards)}, Scheme::kImplicit, step);
+      double deepest = -1.0;
+      for (int k = 0; k < 0.8 / travel + 4; ++k) {
+        const Vector3d before = simulation.states()[1].X_OB.translation();
+        simulation.advance();
+        const Vector3d moved = simulation.states()[1].X_OB.translation() - before;
+        for (int j = 0; j <= 100; ++j) deepest = std::max(deepest, depthInCube(half_size, before + 0.01 * j * moved));
+      }
+      EXPECT_LT(deepest, 0.001) << travel << " " << i;
+    }
+  }
+}
+
+TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
+  RigidBody cube = primitiveBody("cube", Box{Vector3d::Constant(0.05)}, 1000.0, 0.02), rod = pointBody("rod", 1.0);
+  cube.fixed = true;
+  rod.shape = std::make_shared<CollisionShape>(
+      makeShape(PointShell{{{0, 0, 0}, {0.2, 0, 0}}, {-Vector3f::UnitZ(), -Vector3f::UnitZ()}, {1.0F, 1.0F}, 0.0}));
+  RigidWorld world;
+  world.gravity.setZero();
+  world.contact.stiffness = 1e9;
+  world.bodies = {cube, rod};
+  // One end gets 2e-5 m deep beside an edge. The paths' tolerance is 1e-4 m.
+  const Vector3d velocity(10.0, 0.0, -10.0), grazed(0.05 - 2e-5, 0.0, 0.05 - 2e-5);
+  Simulation simulation(world, {at(Vector3d::Zero()), at(grazed - 0.005 * velocity, velocity)}, Scheme::kImplicit,
+                        0.01);
+  simulation.advance();
+  EXPECT_LT((simulation.states()[1].velocity - velocity).norm(), 1e-9);
+}
+
 TEST(Integrator, BadOptionsAreRefused) {
   EXPECT_THROW(schemeOf("leapfrog"), std::invalid_argument);
   RigidWorld world;
