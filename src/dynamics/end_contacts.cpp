@@ -129,11 +129,15 @@ void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearc
   });
 }
 
+double elasticEnergy(const PairContacts& contacts) {
+  double energy = 0.0;
+  for (const PointContact& point : contacts.points) energy += 0.5 * point.stiffness * point.depth * point.depth;
+  return energy;
+}
+
 double elasticEnergy(const std::vector<PairContacts>& contacts) {
   double energy = 0.0;
-  for (const PairContacts& pair : contacts) {
-    for (const PointContact& point : pair.points) energy += 0.5 * point.stiffness * point.depth * point.depth;
-  }
+  for (const PairContacts& pair : contacts) energy += elasticEnergy(pair);
   return energy;
 }
 

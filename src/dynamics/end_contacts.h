@@ -34,6 +34,7 @@ void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearc
                  std::vector<PairContacts>& contacts);
 
 /// Σ ½ k φ² [J].
+double elasticEnergy(const PairContacts& contacts);
 double elasticEnergy(const std::vector<PairContacts>& contacts);
 
 }  // namespace sdf_ccd

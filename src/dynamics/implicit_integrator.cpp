@@ -23,7 +23,7 @@ constexpr double kEnergyRounding = 1e-10;  // relative to the energies
 class ImplicitIntegrator : public Integrator {
  public:
   explicit ImplicitIntegrator(const RigidWorld& world)
-      : world_(world), search_(world), touched_(world.bodies.size(), false) {}
+      : world_(world), search_(world), groups_(world), touched_(world.bodies.size(), false) {}
 
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
@@ -32,7 +32,6 @@ class ImplicitIntegrator : public Integrator {
       restMotion(states, 1.0, motion_);
       endContacts(world_, motion_, search_, contacts_);
     }
-    elastic_energy_ = elasticEnergy(contacts_);
     advancePart(duration, step, 0, states, report);
     measure(contacts_, report);
   }
@@ -48,35 +47,47 @@ class ImplicitIntegrator : public Integrator {
 
   void advancePart(double duration, long step, int halvings, std::vector<BodyState>& states, StepReport& report) {
     const std::vector<BodyState> start = states;
-    const double elastic_at_start = elastic_energy_;
+    const std::vector<PairContacts> contacts_at_start = contacts_;
     std::vector<Wrench> impulses;
     const bool solved = solveStep(duration, step, states, impulses, report);
-    const double elastic_at_end = elasticEnergy(contacts_);
-    double energies = elastic_at_start + elastic_at_end, growth = elastic_at_end - elastic_at_start;
-    for (std::size_t b = 0; b < states.size(); ++b) {
-      const RigidBody& body = world_.bodies[b];
-      if (body.fixed) continue;
-      const double before = kineticEnergy(body, start[b]), after = kineticEnergy(body, states[b]);
-      const Vector3d moved = states[b].X_OB.translation() - start[b].X_OB.translation();
-      const Vector3d rotated = duration * (start[b].X_OB.linear() * states[b].spin_B);
-      const double work =
-          (body.mass * world_.gravity + body.applied.force).dot(moved) + body.applied.torque.dot(rotated);
-      energies += before + after + std::abs(work);
-      growth += after - before - work;
-    }
-    const bool grew = growth > kEnergyRounding * energies;
-    if (grew || (!solved && pointsPass())) {
+    const double grown = growth(start, contacts_at_start, duration, states);
+    if (grown > 0.0 || (!solved && pointsPass())) {
       if (halvings < kMaxHalvings) {
         states = start;
-        elastic_energy_ = elastic_at_start;
+        contacts_ = contacts_at_start;
         advancePart(0.5 * duration, step, halvings + 1, states, report);
         advancePart(0.5 * duration, step, halvings + 1, states, report);
         return;
       }
-      if (grew) report.energy_excess += growth;
+      report.energy_excess += grown;
     }
-    elastic_energy_ = elastic_at_end;
     for (std::size_t b = 0; b < states.size(); ++b) report.impulses[b] += impulses[b];
+  }
+
+  /// Growth of energy during a step, of the groups of bodies where it is more than rounding [J].
+  double growth(const std::vector<BodyState>& start, const std::vector<PairContacts>& contacts_at_start,
+                double duration, const std::vector<BodyState>& end) {
+    const PerBody elastic_at_start = elasticEnergies(contacts_at_start), elastic_at_end = elasticEnergies(contacts_);
+    PerBody energies = elastic_at_start + elastic_at_end, growth = elastic_at_end - elastic_at_start;
+    for (std::size_t b = 0; b < end.size(); ++b) {
+      const RigidBody& body = world_.bodies[b];
+      if (body.fixed) continue;
+      const double before = kineticEnergy(body, start[b]), after = kineticEnergy(body, end[b]);
+      const Vector3d moved = end[b].X_OB.translation() - start[b].X_OB.translation();
+      const Vector3d rotated = duration * (start[b].X_OB.linear() * end[b].spin_B);
+      const double work =
+          (body.mass * world_.gravity + body.applied.force).dot(moved) + body.applied.torque.dot(rotated);
+      energies[b] += before + after + std::abs(work);
+      growth[b] += after - before - work;
+    }
+    const PerBody sums = groups_.sums(growth);
+    return (sums > kEnergyRounding * groups_.sums(energies)).select(sums, 0.0).sum();
+  }
+
+  PerBody elasticEnergies(const std::vector<PairContacts>& contacts) const {
+    PerBody energies = PerBody::Zero(world_.bodies.size());
+    for (const PairContacts& pair : contacts) energies[bodyOf(world_, pair)] += elasticEnergy(pair);
+    return energies;
   }
 
   /// Whether points pass through a solid: they end far behind the planes that hold them.
@@ -99,7 +110,7 @@ class ImplicitIntegrator : public Integrator {
     const VelocitySystem system(world_, start, duration);
     const Vector V0 = system.withoutContact(start);
     // The energy of one step of gravity keeps the scale of a body at rest from being zero.
-    const double scale = system.kineticEnergy(V0) + system.kineticEnergy(V0 - system.velocitiesOf(start));
+    const PerBody scale = system.kineticEnergy(V0) + system.kineticEnergy(V0 - system.velocitiesOf(start));
     std::vector<PairContacts> damped;
     const auto move = [&](const Vector& V) {
       states = start;
@@ -126,17 +137,26 @@ class ImplicitIntegrator : public Integrator {
       return more;
     };
     touched_.assign(states.size(), false);
+    for (const PairContacts& pair : contacts_) {
+      const bool touches = std::any_of(pair.points.begin(), pair.points.end(),
+                                       [](const PointContact& point) { return point.depth < 0.0; });
+      for (const int b : {pair.shell_body, pair.field_body}) touched_[b] = touched_[b] || touches;
+    }
     Vector V = V0;
     if (moveTo(V)) moveTo(V);
     damped = contacts_;
-    double merit = system.merit(V, V0, contacts_, damped);
+    groups_ = BodyGroups(world_);
+    groups_.join(damped);
+    PerBody merit = system.merit(V, V0, contacts_, damped);
     impulses.assign(states.size(), {});
     for (int i = 0; i < kMaxSolves && !contacts_.empty(); ++i) {
       const VelocitySystem::Solution solution = system.solve(V, V0, contacts_, damped);
       ++report.solves;
       impulses = solution.impulses;
-      if (solution.decrease <= kConverged * (scale + merit)) {
+      groups_.join(contacts_);
+      if ((groups_.sums(solution.decrease) <= kConverged * groups_.sums(scale + merit)).all()) {
         move(V + solution.change);
+        system.follow(solution.change, contacts_);
         return true;
       }
       bool lower = false;
@@ -144,8 +164,8 @@ class ImplicitIntegrator : public Integrator {
       for (int k = 0; k <= kMaxShortenings && !lower; ++k, share *= 0.5) {
         const Vector tried = V + share * solution.change;
         const bool other = moveTo(tried);
-        const double merit_tried = system.merit(tried, V0, contacts_, damped);
-        lower = other || merit_tried <= merit;
+        const PerBody merit_tried = system.merit(tried, V0, contacts_, damped);
+        lower = other || merit_tried.sum() <= merit.sum();
         if (other) {  // another body changes its fall from now on, so Φ is another function
           moveTo(V);
           merit = system.merit(V, V0, contacts_, damped);
@@ -167,8 +187,8 @@ class ImplicitIntegrator : public Integrator {
   ContactSearch search_;
   StepMotion motion_;
   std::vector<PairContacts> contacts_;
+  BodyGroups groups_;          // by the contacts of this step
   std::vector<bool> touched_;  // bodies in contact during this step
-  double elastic_energy_ = 0.0;
 };
 
 }  // namespace

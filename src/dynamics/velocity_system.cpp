@@ -1,5 +1,7 @@
 #include "velocity_system.h"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 
@@ -111,8 +113,16 @@ VelocitySystem::Vector VelocitySystem::timesMass(const Vector& V) const {
   return result;
 }
 
-double VelocitySystem::kineticEnergy(const Vector& V) const {
-  return 0.5 * V.dot(timesMass(V));
+PerBody VelocitySystem::dot(const Vector& a, const Vector& b) const {
+  PerBody result = PerBody::Zero(offset_.size());
+  for (std::size_t i = 0; i < offset_.size(); ++i) {
+    if (offset_[i] >= 0) result[i] = a.segment<6>(offset_[i]).dot(b.segment<6>(offset_[i]));
+  }
+  return result;
+}
+
+PerBody VelocitySystem::kineticEnergy(const Vector& V) const {
+  return 0.5 * dot(V, timesMass(V));
 }
 
 Vector6d VelocitySystem::of(const Vector& V, int body) const {
@@ -124,18 +134,20 @@ Vector3d VelocitySystem::relativeVelocity(const Vector& V, const PairContacts& p
   return P.head<3>() + P.tail<3>().cross(point.r_P) - F.head<3>() - F.tail<3>().cross(point.r_F);
 }
 
-double VelocitySystem::merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
-                             const std::vector<PairContacts>& damped) const {
-  double value = kineticEnergy(V - V0);
+PerBody VelocitySystem::merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
+                              const std::vector<PairContacts>& damped) const {
+  PerBody merit = kineticEnergy(V - V0);
   for (const PairContacts& pair : contacts) {
+    double& value = merit[bodyOf(world_, pair)];
     for (const PointContact& point : pair.points) value += 0.5 * point.stiffness * point.gap * point.gap;
   }
   for (const PairContacts& pair : damped) {
+    double& value = merit[bodyOf(world_, pair)];
     for (const PointContact& point : pair.points) {
       value += 0.5 * duration_ * point.damping * relativeVelocity(V, pair, point).squaredNorm();
     }
   }
-  return value;
+  return merit;
 }
 
 std::vector<VelocitySystem::PairRows> VelocitySystem::rowsOf(const Vector& V, const std::vector<PairContacts>& contacts,
@@ -198,7 +210,7 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
 
   Solution solution;
   solution.change = A.solve(downhill);
-  solution.decrease = downhill.dot(solution.change);
+  solution.decrease = dot(downhill, solution.change);
   solution.impulses.resize(offset_.size());
   for (const auto& [pair, rows] : all) {
     for (const Row& row : rows) {
@@ -209,6 +221,16 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
     }
   }
   return solution;
+}
+
+void VelocitySystem::follow(const Vector& change, std::vector<PairContacts>& contacts) const {
+  for (PairContacts& pair : contacts) {
+    for (PointContact& point : pair.points) {
+      if (point.depth == 0.0 || point.gap != point.depth) continue;
+      point.depth += duration_ * point.slope.dot(relativeVelocity(change, pair, point));
+      point.depth = point.gap = std::min(point.depth, 0.0);
+    }
+  }
 }
 
 }  // namespace sdf_ccd

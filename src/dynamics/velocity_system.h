@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "end_contacts.h"
+#include "body_groups.h"
 
 namespace sdf_ccd {
 
@@ -26,13 +26,13 @@ class VelocitySystem {
   /// V₀: gravity and applied forces added.
   Vector withoutContact(const std::vector<BodyState>& states) const;
 
-  /// Φ(V); `damped` holds the points that damp, which do not change during the step.
-  double merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
-               const std::vector<PairContacts>& damped) const;
+  /// Φ(V), as its sum; `damped` holds the points that damp, which do not change during the step.
+  PerBody merit(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
+                const std::vector<PairContacts>& damped) const;
 
   struct Solution {
     Vector change;                 ///< Newton's step from V
-    double decrease;               ///< expected decrease of Φ, times two [J]
+    PerBody decrease;              ///< expected decrease of Φ, times two [J]; a group's is the sum of its bodies'
     std::vector<Wrench> impulses;  ///< of contact at V + change, per body about O's origin
   };
 
@@ -40,8 +40,11 @@ class VelocitySystem {
   Solution solve(const Vector& V, const Vector& V0, const std::vector<PairContacts>& contacts,
                  const std::vector<PairContacts>& damped) const;
 
-  /// ½ Vᵀ M V.
-  double kineticEnergy(const Vector& V) const;
+  /// Changes the depths of points that are inside as their velocities change, to first order.
+  void follow(const Vector& change, std::vector<PairContacts>& contacts) const;
+
+  /// ½ Vᵀ M V, as its sum.
+  PerBody kineticEnergy(const Vector& V) const;
 
  private:
   /// A point's impulse along one direction: `push` at V, minus `factor` times the change of its speed along it.
@@ -59,6 +62,7 @@ class VelocitySystem {
                                const std::vector<PairContacts>& damped) const;
 
   Vector timesMass(const Vector& V) const;
+  PerBody dot(const Vector& a, const Vector& b) const;
   Eigen::Matrix<double, 6, 1> of(const Vector& V, int body) const;
   Vector3d relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const;
 

@@ -169,6 +169,55 @@ TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
   EXPECT_LT((simulation.states()[1].velocity - velocity).norm(), 1e-9);
 }
 
+/// A tilted box that falls on the ground; with `far_energy` [J] not 0 also a ball that flies elsewhere.
+Simulation fallingBox(double far_energy) {
+  RigidWorld world;
+  world.contact.stiffness = 1e10;
+  world.bodies = {groundBody(), primitiveBody("box", Box{{0.05, 0.04, 0.03}}, 1000.0, 0.02)};
+  std::vector<BodyState> states = {at(Vector3d::Zero()), at({0, 0, 0.1})};
+  states[1].X_OB.linear() = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 0.3).normalized()).toRotationMatrix();
+  if (far_energy > 0.0) {
+    const double speed = 1000.0, density = 2.0 * far_energy / (speed * speed) / (4.0 / 3.0 * kPi);
+    world.bodies.push_back(primitiveBody("far", Sphere{1.0}, density, 0.5));
+    states.push_back(at({0, 1e5, 1e5}, {speed, 0, 0}));
+  }
+  return Simulation(world, states, Scheme::kImplicit, 1e-3);
+}
+
+TEST(Integrator, ImplicitSolvesEveryBodyAsIfItWereAlone) {
+  for (const double energy : {1e6, 1e12, 1e15}) {
+    Simulation alone = fallingBox(0.0), together = fallingBox(energy);
+    int contacts = 0;
+    for (int i = 0; i < 200; ++i) {
+      contacts += alone.advance().contacts > 0;
+      together.advance();
+      const BodyState &expected = alone.states()[1], &state = together.states()[1];
+      ASSERT_LT((state.X_OB.matrix() - expected.X_OB.matrix()).norm(), 1e-7) << energy << " " << i;
+      ASSERT_LT((state.velocity - expected.velocity).norm(), 1e-4) << energy << " " << i;
+    }
+    EXPECT_GT(contacts, 2);
+  }
+}
+
+TEST(Integrator, ImplicitRecordsTheContactsAtTheEndOfTheStep) {
+  const RigidBody box = primitiveBody("box", Box{{0.05, 0.04, 0.03}}, 1000.0, 0.02);
+  Simulation simulation = fallingBox(1e12);
+  int contacts = 0;
+  for (int i = 0; i < 200; ++i) {
+    const StepRecord& record = simulation.advance();
+    double deepest = 0.0, elastic = 0.0;
+    for (std::size_t k = 0; k < box.shape->shell.size(); ++k) {
+      const double depth = -std::min((simulation.states()[1].X_OB * box.shape->shell.points[k]).z(), 0.0);
+      deepest = std::max(deepest, depth);
+      elastic += 0.5 * 1e10 * box.shape->shell.areas[k] * depth * depth;
+    }
+    EXPECT_NEAR(record.deepest, deepest, 1e-13 + 1e-8 * deepest) << i;
+    EXPECT_NEAR(record.elastic, elastic, 1e-12 + 1e-9 * elastic) << i;
+    contacts += deepest > 0.0;
+  }
+  EXPECT_GT(contacts, 2);
+}
+
 TEST(Integrator, BadOptionsAreRefused) {
   EXPECT_THROW(schemeOf("leapfrog"), std::invalid_argument);
   RigidWorld world;
