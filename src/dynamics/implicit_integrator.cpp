@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "explicit_step.h"
 #include "velocity_system.h"
@@ -12,6 +13,7 @@ constexpr int kMaxHalvings = 8;            // of the time step
 constexpr double kPassed = 0.1;            // distance behind a plane, relative to the smaller body's radius
 constexpr double kConverged = 1e-13;       // remaining gain of a Newton step, relative to the energies
 constexpr double kEnergyRounding = 1e-10;  // relative to the energies
+constexpr double kPositionRounding = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Backward Euler (see VelocitySystem). Because the energy of a compressed contact is convex in the penetration, a step
 /// to the minimum of Φ never ends with more energy than it began with: ΔU ≤ ∇U(x')·Δt v' = −(M Δv)·v' − Δt v'·D v'.
@@ -81,7 +83,21 @@ class ImplicitIntegrator : public Integrator {
       growth[b] += after - before - work;
     }
     const PerBody sums = groups_.sums(growth);
-    return (sums > kEnergyRounding * groups_.sums(energies)).select(sums, 0.0).sum();
+    const PerBody tolerance = kEnergyRounding * energies + roundings(contacts_at_start) + roundings(contacts_);
+    return (sums > groups_.sums(tolerance)).select(sums, 0.0).sum();
+  }
+
+  /// Rounding of elastic energies: contact forces times that of positions. It exceeds the energies in stiff contact.
+  PerBody roundings(const std::vector<PairContacts>& contacts) const {
+    PerBody result = PerBody::Zero(world_.bodies.size());
+    for (const PairContacts& pair : contacts) {
+      const double distances = pair.p_OP.norm() + pair.p_OF.norm();
+      for (const PointContact& point : pair.points) {
+        result[bodyOf(world_, pair)] -=
+            kPositionRounding * (distances + point.r_P.norm()) * point.stiffness * point.depth;
+      }
+    }
+    return result;
   }
 
   PerBody elasticEnergies(const std::vector<PairContacts>& contacts) const {

@@ -218,6 +218,26 @@ TEST(Integrator, ImplicitRecordsTheContactsAtTheEndOfTheStep) {
   EXPECT_GT(contacts, 2);
 }
 
+TEST(Integrator, ImplicitRestsInStiffContactWithoutHalvingSteps) {
+  for (const double stiffness : {1e10, 1e12, 1e14}) {
+    RigidWorld world;
+    world.contact.stiffness = stiffness;
+    world.bodies = {groundBody()};
+    std::vector<BodyState> states = {at(Vector3d::Zero())};
+    for (int i = 0; i < 3; ++i) {
+      world.bodies.push_back(primitiveBody("box", Box{{0.05, 0.05, 0.05}}, 1000.0, 0.02));
+      states.push_back(at({0, 0, 0.05 + 0.1 * i}));
+    }
+    Simulation simulation(world, states, Scheme::kImplicit, 1e-3);
+    int solves = 0;
+    for (int i = 0; i < 100; ++i) {
+      solves += simulation.advance().solves;
+      EXPECT_EQ(simulation.last().energy_excess, 0.0) << stiffness << " " << i;
+    }
+    EXPECT_LT(solves, 1000) << stiffness;
+  }
+}
+
 TEST(Integrator, BadOptionsAreRefused) {
   EXPECT_THROW(schemeOf("leapfrog"), std::invalid_argument);
   RigidWorld world;
