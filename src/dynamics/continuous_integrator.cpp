@@ -17,7 +17,7 @@ class ContinuousIntegrator : public Integrator {
       integrateAll(duration);
     }
     for (Wrench& wrench : average_) wrench = duration * wrench;
-    report.impulses = aboutScene(average_, states);
+    report.reaction = reactionOf(average_, states);
     kick(world_, average_, duration, states);
     velocities_.clear();
     for (const BodyState& state : states) velocities_.push_back(state.velocity);

@@ -23,7 +23,7 @@ class DiscreteIntegrator : public Integrator {
       addPair(impulse, shell.X_OB.translation() - field.X_OB.translation(), impulses[pair.shell_body],
               impulses[pair.field_body]);
     }
-    report.impulses = aboutScene(impulses, states);
+    report.reaction = reactionOf(impulses, states);
     kick(world_, impulses, duration, states);
     velocities_.clear();
     for (const BodyState& state : states) velocities_.push_back(state.velocity);

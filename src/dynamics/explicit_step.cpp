@@ -22,11 +22,10 @@ void addPair(const Wrench& on_shell, const Vector3d& p_FP, Wrench& shell_total, 
   field_total += {-on_shell.force, -on_shell.torque - p_FP.cross(on_shell.force)};
 }
 
-std::vector<Wrench> aboutScene(std::vector<Wrench> impulses, const std::vector<BodyState>& states) {
-  for (std::size_t b = 0; b < states.size(); ++b) {
-    impulses[b].torque += states[b].X_OB.translation().cross(impulses[b].force);
-  }
-  return impulses;
+Reaction reactionOf(const std::vector<Wrench>& impulses, const std::vector<BodyState>& states) {
+  Reaction reaction;
+  for (std::size_t b = 0; b < states.size(); ++b) reaction.add(states[b].X_OB.translation(), impulses[b]);
+  return reaction;
 }
 
 void measure(const std::vector<PairContacts>& contacts, StepReport& report) {

@@ -13,8 +13,8 @@ void kick(const RigidWorld& world, const std::vector<Wrench>& contact, double du
 /// @param p_FP  from the field's body's origin to the shell's body's [m], O's axes.
 void addPair(const Wrench& on_shell, const Vector3d& p_FP, Wrench& shell_total, Wrench& field_total);
 
-/// Converts moments about the bodies' origins to moments about O's, for the report.
-std::vector<Wrench> aboutScene(std::vector<Wrench> impulses, const std::vector<BodyState>& states);
+/// Of impulses about the bodies' origins, for the report.
+Reaction reactionOf(const std::vector<Wrench>& impulses, const std::vector<BodyState>& states);
 
 /// Fills in the measurements at the end of a step.
 void measure(const std::vector<PairContacts>& contacts, StepReport& report);

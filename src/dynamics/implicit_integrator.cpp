@@ -29,7 +29,6 @@ class ImplicitIntegrator : public Integrator {
 
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
-    report.impulses.resize(states.size());
     if (!startsWhereLastEnded(states)) {
       restMotion(states, 1.0, motion_);
       endContacts(world_, motion_, search_, contacts_);
@@ -50,8 +49,8 @@ class ImplicitIntegrator : public Integrator {
   void advancePart(double duration, long step, int halvings, std::vector<BodyState>& states, StepReport& report) {
     const std::vector<BodyState> start = states;
     const std::vector<PairContacts> contacts_at_start = contacts_;
-    std::vector<Wrench> impulses;
-    const bool solved = solveStep(duration, step, states, impulses, report);
+    Reaction reaction;
+    const bool solved = solveStep(duration, step, states, reaction, report);
     const double grown = growth(start, contacts_at_start, duration, states);
     if (grown > 0.0 || (!solved && pointsPass())) {
       if (halvings < kMaxHalvings) {
@@ -63,7 +62,7 @@ class ImplicitIntegrator : public Integrator {
       }
       report.energy_excess += grown;
     }
-    for (std::size_t b = 0; b < states.size(); ++b) report.impulses[b] += impulses[b];
+    report.reaction += reaction;
   }
 
   /// Growth of energy during a step, of the groups of bodies where it is more than rounding [J].
@@ -120,8 +119,7 @@ class ImplicitIntegrator : public Integrator {
 
   /// One step to the minimum of Φ, from `states`. Leaves the contacts at its end in contacts_, the motion in motion_.
   /// False if it stops before a minimum.
-  bool solveStep(double duration, long step, std::vector<BodyState>& states, std::vector<Wrench>& impulses,
-                 StepReport& report) {
+  bool solveStep(double duration, long step, std::vector<BodyState>& states, Reaction& reaction, StepReport& report) {
     const std::vector<BodyState> start = states;
     const VelocitySystem system(world_, start, duration);
     const Vector V0 = system.withoutContact(start);
@@ -164,11 +162,10 @@ class ImplicitIntegrator : public Integrator {
     groups_ = BodyGroups(world_);
     groups_.join(damped);
     PerBody merit = system.merit(V, V0, contacts_, damped);
-    impulses.assign(states.size(), {});
     for (int i = 0; i < kMaxSolves && !contacts_.empty(); ++i) {
       const VelocitySystem::Solution solution = system.solve(V, V0, contacts_, damped);
       ++report.solves;
-      impulses = solution.impulses;
+      reaction = solution.reaction;
       groups_.join(contacts_);
       if ((groups_.sums(solution.decrease) <= kConverged * groups_.sums(scale + merit)).all()) {
         move(V + solution.change);

@@ -11,16 +11,10 @@
 namespace sdf_ccd {
 namespace {
 
-double reactionError(const std::vector<Wrench>& impulses) {
-  Wrench sum;
-  double forces = 0.0, torques = 0.0;
-  for (const Wrench& impulse : impulses) {
-    sum += impulse;
-    forces += impulse.force.norm();
-    torques += impulse.torque.norm();
-  }
+double reactionError(const Reaction& reaction) {
   const auto share = [](double error, double total) { return total > 0.0 ? error / total : 0.0; };
-  return std::max(share(sum.force.norm(), forces), share(sum.torque.norm(), torques));
+  return std::max(share(reaction.sum.force.norm(), reaction.impulses),
+                  share(reaction.sum.torque.norm(), reaction.moments));
 }
 
 // Contacts are not searched beyond this distance [m].
@@ -111,7 +105,7 @@ StepRecord Simulation::measured(const std::vector<BodyState>& states, long step)
   }
   record.elastic = report_->elastic_energy;
   record.momentum = totalMomentum(*world_, states);
-  record.reaction_error = reactionError(report_->impulses);
+  record.reaction_error = reactionError(report_->reaction);
   record.energy_excess = report_->energy_excess;
   record.deepest = report_->deepest;
   record.contacts = report_->contacts;

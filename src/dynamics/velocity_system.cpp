@@ -209,18 +209,38 @@ VelocitySystem::Solution VelocitySystem::solve(const Vector& V, const Vector& V0
   }
 
   Solution solution;
-  solution.change = A.solve(downhill);
+  BodyGroups groups(world_);
+  groups.join(contacts);
+  groups.join(damped);
+  Vector end = V + A.solve(downhill);
+  keepMomentum(groups, V0, end);
+  solution.change = end - V;
   solution.decrease = dot(downhill, solution.change);
-  solution.impulses.resize(offset_.size());
   for (const auto& [pair, rows] : all) {
     for (const Row& row : rows) {
       const double more = row.factor * row.direction.dot(relativeVelocity(solution.change, *pair, *row.point));
       const Vector3d impulse = (row.push - more) * row.direction;
-      solution.impulses[pair->shell_body] += {impulse, (pair->p_OP + row.point->r_P).cross(impulse)};
-      solution.impulses[pair->field_body] += {-impulse, -(pair->p_OF + row.point->r_F).cross(impulse)};
+      solution.reaction.add(pair->p_OP, {impulse, row.point->r_P.cross(impulse)});
+      solution.reaction.add(pair->p_OF, {-impulse, -row.point->r_F.cross(impulse)});
     }
   }
   return solution;
+}
+
+void VelocitySystem::keepMomentum(BodyGroups groups, const Vector& V0, Vector& V) const {
+  const PerBody held = groups.touchesFixed();
+  PerBody mass = PerBody::Zero(offset_.size());
+  Eigen::Array3Xd lost = Eigen::Array3Xd::Zero(3, offset_.size());
+  for (std::size_t b = 0; b < offset_.size(); ++b) {
+    if (offset_[b] < 0) continue;
+    const int group = groups.first(int(b));
+    mass[group] += world_.bodies[b].mass;
+    lost.col(group) += world_.bodies[b].mass * (V0 - V).segment<3>(offset_[b]).array();
+  }
+  for (std::size_t b = 0; b < offset_.size(); ++b) {
+    const int group = groups.first(int(b));
+    if (offset_[b] >= 0 && held[group] == 0.0) V.segment<3>(offset_[b]).array() += lost.col(group) / mass[group];
+  }
 }
 
 void VelocitySystem::follow(const Vector& change, std::vector<PairContacts>& contacts) const {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "body_groups.h"
+#include "dynamics/integrator.h"
 
 namespace sdf_ccd {
 
@@ -31,9 +32,9 @@ class VelocitySystem {
                 const std::vector<PairContacts>& damped) const;
 
   struct Solution {
-    Vector change;                 ///< Newton's step from V
-    PerBody decrease;              ///< expected decrease of Φ, times two [J]; a group's is the sum of its bodies'
-    std::vector<Wrench> impulses;  ///< of contact at V + change, per body about O's origin
+    Vector change;      ///< Newton's step from V
+    PerBody decrease;   ///< expected decrease of Φ, times two [J]; a group's is the sum of its bodies'
+    Reaction reaction;  ///< of contact at V + change
   };
 
   /// One Newton step from V, where the contacts are `contacts`.
@@ -63,6 +64,10 @@ class VelocitySystem {
 
   Vector timesMass(const Vector& V) const;
   PerBody dot(const Vector& a, const Vector& b) const;
+  /// Shifts the velocities of bodies that touch no fixed ones so that their momentum is that of V0. Without this, the
+  /// rounding of a solve with stiff contact changes it.
+  void keepMomentum(BodyGroups groups, const Vector& V0, Vector& V) const;
+
   Eigen::Matrix<double, 6, 1> of(const Vector& V, int body) const;
   Vector3d relativeVelocity(const Vector& V, const PairContacts& pair, const PointContact& point) const;
 

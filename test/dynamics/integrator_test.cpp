@@ -238,6 +238,43 @@ TEST(Integrator, ImplicitRestsInStiffContactWithoutHalvingSteps) {
   }
 }
 
+TEST(Integrator, ImplicitKeepsMomentumInStiffContactOfUnequalMasses) {
+  for (const double ratio : {1.0, 1e-3, 1e-6}) {
+    for (const double stiffness : {1e6, 1e9, 1e12}) {
+      RigidBody box = primitiveBody("box", Box{{0.05, 0.05, 0.05}}, 1000.0, 0.02),
+                ball = primitiveBody("ball", Sphere{0.05}, 1000.0 * ratio, 0.02);
+      RigidWorld world;
+      world.gravity.setZero();
+      world.contact.stiffness_per = StiffnessPer::kPoint;
+      world.contact.stiffness = stiffness;
+      world.bodies = {box, ball};
+      Simulation simulation(world, {at(Vector3d::Zero()), at({0.013, 0.007, 0.6}, {0, 0, -1})}, Scheme::kImplicit, 1.0);
+      const Vector3d before(0, 0, -ball.mass);
+      for (int i = 0; i < 50; ++i) {
+        const Vector3d after = simulation.advance().momentum.force;
+        ASSERT_LT((after - before).norm(), 1e-12 * before.norm()) << ratio << " " << stiffness << " " << i;
+      }
+      EXPECT_GT(simulation.states()[0].velocity.norm(), 0.0);
+    }
+  }
+}
+
+/// Balls that meet obliquely, so that the contact's line of action passes through the scene's origin.
+TEST(Integrator, ReactionErrorIsRoundingAlsoWhereMomentsVanish) {
+  for (const Scheme scheme : kSchemes) {
+    for (const double step : {1e-4, 1e-3, 1e-2}) {
+      RigidWorld world;
+      world.gravity.setZero();
+      world.contact.stiffness = 1e8;
+      world.bodies = {primitiveBody("a", Sphere{0.05}, 1000.0, 0.01), primitiveBody("b", Sphere{0.05}, 1000.0, 0.01)};
+      Simulation simulation(world, {at(Vector3d::Zero()), at({0.06, 0, 0.11 + 0.3 * step}, {0, 0, -1})}, scheme, step);
+      for (int i = 0; i < 0.3 / step; ++i) {
+        ASSERT_LT(simulation.advance().reaction_error, 1e-13) << toString(scheme) << " " << step << " " << i;
+      }
+    }
+  }
+}
+
 TEST(Integrator, BadOptionsAreRefused) {
   EXPECT_THROW(schemeOf("leapfrog"), std::invalid_argument);
   RigidWorld world;

@@ -19,7 +19,8 @@ enum class Scheme {
   /// Ours: backward Euler by Newton's method on the 6×6 stiffness and damping blocks of all contact points, contacts
   /// found continuously. A persistent contact is stable at any step. A step whose energy would grow is halved. It costs
   /// accuracy: at ζ = 0 a contact oscillation is damped as by ζ ≈ s/2, so impacts that last few steps lose most of
-  /// their energy. Needs field normals.
+  /// their energy. Momentum is conserved to rounding, angular momentum of oblique impacts only to first order in the
+  /// step, as moments are those at its end. Needs field normals.
   kImplicit
 };
 
@@ -36,7 +37,7 @@ struct StepRecord {
   double potential = 0.0;       ///< of gravity and applied forces, about O's origin, minus the work of torques [J]
   double elastic = 0.0;         ///< of contact [J]
   Wrench momentum;              ///< of all moving bodies, about O's origin [N·s, N·m·s]
-  double reaction_error = 0.0;  ///< |Σ contact impulses and moments over all bodies| / Σ |…|; 0 up to rounding
+  double reaction_error = 0.0;  ///< |Σ contact impulses or moments on all bodies| / Σ |parts|; 0 up to rounding
   double energy_excess = 0.0;   ///< kImplicit: growth of energy that halving the step did not remove [J]
   double deepest = 0.0;         ///< contact point [m]
   int contacts = 0;             ///< points inside a field
