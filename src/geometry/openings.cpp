@@ -1,10 +1,11 @@
 #include "geometry/openings.h"
 
 #include <algorithm>
-#include <map>
+#include <numeric>
 #include <sstream>
 
 #include "loop_cap.h"
+#include "mesh_patches.h"
 #include "reach_bound.h"
 #include "rim.h"
 #include "sdf_ccd/common/cancel.h"
@@ -40,21 +41,6 @@ Openings capped(const TriangleMesh& mesh, double diagonal, double widest) {
   return openings;
 }
 
-TriangleMesh withoutUnusedVertices(const TriangleMesh& mesh) {
-  TriangleMesh result;
-  std::map<int, int> places;
-  for (const Vector3i& t : mesh.triangles) {
-    Vector3i corners;
-    for (int k = 0; k < 3; ++k) {
-      const auto [place, is_new] = places.try_emplace(t[k], static_cast<int>(result.vertices.size()));
-      if (is_new) result.vertices.push_back(mesh.vertices[t[k]]);
-      corners[k] = place->second;
-    }
-    result.triangles.push_back(corners);
-  }
-  return result;
-}
-
 }  // namespace
 
 Openings findOpenings(const TriangleMesh& mesh) {
@@ -76,7 +62,10 @@ Openings findOpenings(const TriangleMesh& mesh) {
     missing = std::move(wider_missing);
   }
   if (!missing.empty()) check.addVoxels(missing, openings);
-  openings.caps = withoutUnusedVertices(openings.caps);
+  Patch caps;
+  caps.triangles.resize(openings.caps.triangles.size());
+  std::iota(caps.triangles.begin(), caps.triangles.end(), 0);
+  openings.caps = extract(openings.caps, caps);  // without unused vertices
   ReachBound reach(check.tree(), kCrack * diagonal);
   for (const Vector3i& t : openings.caps.triangles) {
     checkCancelled();

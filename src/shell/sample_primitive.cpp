@@ -7,19 +7,6 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
-double exactArea(const Sphere& sphere) {
-  return 4 * kPi * sphere.radius * sphere.radius;
-}
-double exactArea(const Box& box) {
-  const Vector3d& h = box.half_size;
-  return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
-}
-double exactArea(const Cylinder& cylinder) {
-  return 2 * kPi * cylinder.radius * (cylinder.radius + 2 * cylinder.half_length);
-}
-
 /// Lifts a point of the tessellation onto the solid, with the solid's normal there.
 void lift(const Sphere& sphere, Vector3d& p, Vector3d& normal) {
   normal = p.normalized();
@@ -70,7 +57,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     Vector3d normal = shell.normals[i].cast<double>();
     lift(solid, shell.points[i], normal);
     shell.normals[i] = normal.cast<float>();
-    shell.areas[i] *= static_cast<float>(exactArea(solid) / area);
+    shell.areas[i] *= static_cast<float>(surfaceArea(Primitive(solid)) / area);
   }
   shell.covering_radius += 2 * deviation;
   shell.edge_radius += deviation;

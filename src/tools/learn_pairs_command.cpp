@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "interrupt.h"
 #include "output_file.h"
@@ -124,7 +125,7 @@ void run(const Arguments& arguments) {
   out.commit();
   printReport(pairs);
   if (pairs.unknown.empty()) return;
-  std::cerr << "sdf_ccd: " << pairs.unknown.size() << " pairs could not be classified, for example "
+  std::cerr << "sdf_ccd: " << counted(pairs.unknown.size(), "pair") << " could not be classified, for example "
             << pairs.unknown.front().link_a << " - " << pairs.unknown.front().link_b << ": "
             << pairs.unknown.front().reason << std::endl;
   throw PartlyDone();

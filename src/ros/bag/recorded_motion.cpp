@@ -149,7 +149,7 @@ std::string RecordedMotion::source() const {
 std::vector<std::string> RecordedMotion::warnings() const {
   std::vector<std::string> lines = joint_watch_.lines(source());
   if (!joint_state_topics_.empty() && !unnamed_.empty()) {
-    lines.push_back(source() + " never names these joints of the robot: " + someOf(unnamed_));
+    lines.push_back(source() + " never gives positions of these joints of the robot: " + someOf(unnamed_));
   }
   return lines;
 }
@@ -179,7 +179,8 @@ void RecordedMotion::playMessage(const rosbag::MessageInstance& message,
     each({recorded, *tf, isStatic(message.getTopic())});
   } else if (const auto joints = message.instantiate<sensor_msgs::JointState>()) {
     joint_watch_.add(*joints);
-    for (const std::string& name : joints->name) unnamed_.erase(name);
+    const std::size_t given = std::min(joints->name.size(), joints->position.size());
+    for (std::size_t i = 0; i < given; ++i) unnamed_.erase(joints->name[i]);
     const ros::Time& stamp = joints->header.stamp;
     const tf2_msgs::TFMessage moved = joints_.moved(*joints, stamp.isZero() ? message.getTime() : stamp);
     if (!moved.transforms.empty()) each({recorded, moved, false});
