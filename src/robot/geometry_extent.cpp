@@ -54,4 +54,14 @@ double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vec
   return distance;
 }
 
+std::vector<GeometryDescription> inBoxes(std::vector<GeometryDescription> geometry) {
+  for (GeometryDescription& element : geometry) {
+    if (!std::holds_alternative<Mesh>(element.shape)) continue;
+    const AlignedBox3d box = boxOf(element);
+    element.X_BG = element.X_BG * Eigen::Translation3d(box.center());
+    element.shape = Primitive(Box{0.5 * box.sizes()});
+  }
+  return geometry;
+}
+
 }  // namespace sdf_ccd

@@ -18,4 +18,7 @@ ExtentBall extentBall(const std::vector<GeometryDescription>& geometry);
 /// Lower bound of the distance from p (in the body's frame) to the geometry [m]; may be negative inside.
 double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p);
 
+/// The same elements, of meshes the boxes around them, so that distanceBelow() takes no longer for large ones.
+std::vector<GeometryDescription> inBoxes(std::vector<GeometryDescription> geometry);
+
 }  // namespace sdf_ccd

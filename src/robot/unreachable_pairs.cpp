@@ -18,6 +18,7 @@ const char* const kRigidlyJoined = "rigidly joined";
 namespace {
 
 BoundingBall ballOf(const BodyDescription& body) {
+  if (body.geometry.empty()) return {};  // it could not be read
   const ExtentBall ball = extentBall(body.geometry);
   return {ball.center, ball.radius};
 }
@@ -50,10 +51,12 @@ std::string beyondReach(const RobotModel::Slide& slide, double position) {
          numberText(slide.high) + "]; it is at " + numberText(position);
 }
 
-bool areJoinedAt(const Isometry3d& X_AB, const Isometry3d& expected) {
-  constexpr double kMoved = 1e-3, kTurned = 1e-3;  // calibrated robots differ by less from their URDF [m, rad]
-  return (X_AB.translation() - expected.translation()).norm() <= kMoved &&
-         (X_AB.linear() - expected.linear()).norm() <= kTurned;
+bool areJoinedAt(const UnreachablePair& pair, const Isometry3d& X_AB) {
+  constexpr double kMoved = 1e-3;  // calibrated robots differ by less from their URDF [m]
+  const Isometry3d& expected = *pair.X_AB;
+  // Where they meet, both have points. Of a half-space nothing follows: it is infinite.
+  return maxDisplacement(expected, X_AB, pair.ball_b) <= kMoved ||
+         maxDisplacement(expected.inverse(), X_AB.inverse(), pair.ball_a) <= kMoved;
 }
 
 std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std::vector<BodyDescription>& bodies,
@@ -64,6 +67,12 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std
   std::map<std::string, int> index;
   for (std::size_t i = 0; i < bodies.size(); ++i) index[bodies[i].name] = static_cast<int>(i);
   const auto linkOf = [&](int body) { return bodies[body].is_world ? robot.root() : bodies[body].name; };
+  std::map<int, BoundingBall> balls;
+  const auto ballOfBody = [&](int body) {
+    const auto [ball, is_new] = balls.try_emplace(body);
+    if (is_new) ball->second = ballOf(bodies[body]);
+    return ball->second;
+  };
   std::vector<UnreachablePair> pairs;
   for (const AllowedPair& left_out : allowed) {
     UnreachablePair pair;
@@ -72,13 +81,13 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std
     const BodyDescription &a = bodies[pair.body_a], &b = bodies[pair.body_b];
     if (left_out.reason == kRigidlyJoined && X_RF.count(a.frame) > 0 && X_RF.count(b.frame) > 0) {
       pair.X_AB = relativePose(X_RF[a.frame] * a.X_frame_B, X_RF[b.frame] * b.X_frame_B);
-      pairs.push_back(std::move(pair));
+    } else if (left_out.reason == kOutOfReach) {
+      pair.slides = robot.slidesBetween(linkOf(pair.body_a), linkOf(pair.body_b));
+    } else {
       continue;
     }
-    if (left_out.reason != kOutOfReach) continue;
-    pair.ball_a = ballOf(a);
-    pair.ball_b = ballOf(b);
-    pair.slides = robot.slidesBetween(linkOf(pair.body_a), linkOf(pair.body_b));
+    pair.ball_a = ballOfBody(pair.body_a);
+    pair.ball_b = ballOfBody(pair.body_b);
     pairs.push_back(std::move(pair));
   }
   return pairs;
@@ -109,7 +118,7 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
     if (pair.X_AB) {
       bool are_joined = is_known;
       for (std::size_t i = 0; i < motion.times.size() && are_joined; ++i)
-        are_joined = areJoinedAt(relativePose(motion.pose(a, i), motion.pose(b, i)), *pair.X_AB);
+        are_joined = areJoinedAt(pair, relativePose(motion.pose(a, i), motion.pose(b, i)));
       if (!are_joined)
         unchecked.push_back({a, b, std::string(kRigidlyJoined) + " in the URDF, but not in these poses"});
       continue;

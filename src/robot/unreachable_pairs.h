@@ -12,8 +12,9 @@ namespace sdf_ccd {
 /// The reasons that describeRobot() and disableUnreachable() give.
 extern const char *const kOutOfReach, *const kRigidlyJoined;
 
-/// Whether two poses of bodies that are rigidly joined are the same, but for rounding and calibration.
-bool areJoinedAt(const Isometry3d& X_AB, const Isometry3d& expected);
+/// Whether the bodies of a pair that is rigidly joined are where the URDF has them, but for rounding and calibration:
+/// no point of one of them moves by more than a millimetre in the other's frame.
+bool areJoinedAt(const UnreachablePair& pair, const Isometry3d& X_AB);
 
 /// Why pairs that assume this range are not out of reach with the joint at this position; empty if they are.
 std::string beyondReach(const RobotModel::Slide& slide, double position);

@@ -84,6 +84,7 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
 
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
+  described.scene.bodies.resize(3);
   described.unreachable = {
       {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}, {}}};  // of each other, although they are close
   loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());

@@ -149,12 +149,25 @@ TEST_F(FixedBaseTest, WhatTheUrdfFixesAndTfDoesNotMoveIsClear) {
 TEST_F(FixedBaseTest, WhatTfMovesIsNotChecked) {
   uncheckedWithBaseAt(0.0);
   const std::string out =
-      ": out of reach according to the URDF, but close to each other in tf: do the URDF and tf belong "
-      "to the same robot?";
-  const std::string moved = ": rigidly joined in the URDF, but not in tf: do they belong to the same robot?";
+      ": out of reach according to the URDF, but close to each other in tf: do the URDF and tf belong to the same "
+      "robot? If these may touch, name them in allowed_pairs";
+  const std::string moved =
+      ": rigidly joined in the URDF, but not in tf: do the URDF and tf belong to the same robot? If these may touch, "
+      "name them in allowed_pairs";
   EXPECT_EQ(uncheckedWithBaseAt(2.6),
             (std::set<std::string>{"base - table" + moved, "base - floor" + moved, "tool - table" + out}));
+  uncheckedWithBaseAt(0.0);
   EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>()) << "back again";
+}
+
+/// From one transform to the next, tf takes the arm through the table.
+TEST_F(FixedBaseTest, WhatPassesBetweenTwoTransformsIsNotChecked) {
+  prepare({{"base", "*"}});
+  uncheckedWithBaseAt(0.0);
+  const std::set<std::string> unchecked = uncheckedWithBaseAt(6.0);
+  ASSERT_EQ(unchecked.size(), 2u) << "arm and tool";
+  EXPECT_EQ(unchecked.begin()->find("arm - table: out of reach according to the URDF"), 0u) << *unchecked.begin();
+  EXPECT_EQ(uncheckedWithBaseAt(12.0), std::set<std::string>()) << "away from it";
 }
 
 TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
@@ -222,6 +235,58 @@ TEST(ReachGuard, LateFramesOfOthersMoveNothing) {
   }
   EXPECT_GT(cycles, 20);
   EXPECT_EQ(late, 0) << "they are named as bodies";
+}
+
+/// An arm turns in front of a wall. Its tool is fixed on it, but comes from another publisher.
+class LateTool {
+ public:
+  LateTool() {
+    MonitorParameters parameters = parametersOf(
+        "<robot name='r'><link name='base'>" + kBall + "</link><link name='arm'>" + kBall +
+        "</link><link name='tool'>" + kBall +
+        "</link><joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin xyz='0 0 "
+        "0.5'/><axis xyz='0 0 1'/></joint><joint name='holds' type='fixed'><parent link='arm'/><child "
+        "link='tool'/><origin xyz='0.5 0 0'/></joint></robot>");
+    parameters.world = {box("wall", "elsewhere")};
+    parameters.pairs.allowed = {{"wall", "tool"}};
+    loop_ = loopOf(describe(parameters), parameters);
+    loop_->history().add(message({stampedTransform("base", "elsewhere", 100.0, 50.0)}), true);
+  }
+
+  /// What is not checked in three seconds, where the tool moves into the arm from the second one on.
+  std::set<std::string> uncheckedWithLag(int lag, double moves) {
+    std::set<std::string> unchecked;
+    for (int i = 0; i < 150; ++i) {
+      const auto timeOf = [](int k) { return ros::Time(100.0) + ros::Duration(0.02 * k); };
+      const auto turned = [](int k) { return Quaterniond(Eigen::AngleAxisd(0.01 * k, Vector3d::UnitZ())); };
+      loop_->history().add(message({stampedTransform("base", "arm", timeOf(i), turned(i), Vector3d(0.0, 0.0, 0.5))}),
+                           false);
+      const int k = i - lag;
+      const double x = 0.5 - std::min(std::max(0.02 * k - 1.0, 0.0) * moves, 0.3);
+      if (k >= 0) loop_->history().add(message({stampedTransform("arm", "tool", timeOf(k).toSec(), x)}), false);
+      if (loop_->step(timeOf(i), {}) != TfTracker::Step::kCycle || i < lag + 10) continue;
+      const ContactArray said = toContactArray(*loop_);
+      for (const PairContact& pair : said.pairs)
+        unchecked.insert(pair.body_a + " - " + pair.body_b + ": " + pair.reason.substr(0, pair.reason.find(" the")));
+      for (const UncheckedBody& body : said.unchecked) unchecked.insert(body.reason.substr(0, body.reason.find(" by")));
+    }
+    return unchecked;
+  }
+
+ private:
+  std::unique_ptr<MonitorLoop> loop_;
+};
+
+TEST(LateTool, IsWatchedWhenItIsKnown) {
+  for (const int lag : {0, 1, 5, 20}) {
+    EXPECT_EQ(LateTool().uncheckedWithLag(lag, 0.0), std::set<std::string>()) << lag;
+    EXPECT_EQ(LateTool().uncheckedWithLag(lag, 1.0), std::set<std::string>{"arm - tool: rigidly joined in"}) << lag;
+  }
+}
+
+/// Nothing waits for it, and no checked pair tells that it is late.
+TEST(LateTool, IsNotCheckedIfItIsTooLate) {
+  EXPECT_EQ(LateTool().uncheckedWithLag(30, 0.0), std::set<std::string>{"tool is late"});
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ struct UnreachablePair {
   int body_a = -1, body_b = -1;           ///< in SceneDescription::bodies
   BoundingBall ball_a, ball_b;            ///< contain the geometry, in the body's frame; infinite for half-spaces
   std::vector<RobotModel::Slide> slides;  ///< prismatic joints between them, which must stay in their ranges
-  std::optional<Isometry3d> X_AB;         ///< of a pair that is rigidly joined; the other members are then not set
+  std::optional<Isometry3d> X_AB;         ///< of a pair that is rigidly joined; it has no slides
 };
 
 /// @param bodies   of the scene.

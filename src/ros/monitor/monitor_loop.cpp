@@ -27,6 +27,22 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   return options;
 }
 
+/// The pairs that are left out only as long as tf agrees with the URDF.
+std::vector<PlannedPair> watchedPairs(const CheckedWorld& world) {
+  std::vector<PlannedPair> pairs;
+  for (const UnreachablePair& pair : world.unreachable) pairs.push_back({pair.body_a, pair.body_b, false, false});
+  return pairs;
+}
+
+/// Names of the bodies of the checked pairs, then of the watched ones.
+std::vector<std::pair<std::string, std::string>> trackedNames(const CheckedWorld& world) {
+  std::vector<std::pair<std::string, std::string>> names = pairNames(world.scene());
+  const BodyList& bodies = world.scene().bodies;
+  for (const UnreachablePair& pair : world.unreachable)
+    names.emplace_back(bodies[pair.body_a].name, bodies[pair.body_b].name);
+  return names;
+}
+
 /// All bodies at rest where they are now, as far as that is known.
 CycleMotion presentPoses(const TfHistory& history, const std::vector<TrackedBody>& bodies) {
   std::vector<Isometry3d> X_WB;
@@ -45,7 +61,8 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
       described_(std::move(described)),
       tf_options_(parameters.tf),
       history_(described_.fixed_frame, historyOptions(world_->scene(), described_, parameters)),
-      tracker_(std::make_unique<TfTracker>(history_, world_->bodies, world_->scene().pairs, tf_options_)),
+      tracker_(std::make_unique<TfTracker>(history_, world_->bodies, world_->scene().pairs, tf_options_,
+                                           watchedPairs(*world_))),
       monitor_(world_->snapshot->scene, parameters.monitor),
       reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
       contacts_(monitor_.scene()),
@@ -65,11 +82,11 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
 
   const CycleMotion present = presentPoses(history_, next->bodies);
   change->monitor = monitor_.prepare(next->snapshot->scene, &present);
-  change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_);
+  change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_, watchedPairs(*next));
   change->tracker->warmUp();
   // Also pairs of bodies that have changed continue: otherwise, if a body changes repeatedly, its pair with a body
   // whose frame lags behind would never be checked.
-  change->pairs_before = findPairs(pairNames(scene), pairNames(monitor_.scene()));
+  change->pairs_before = findPairs(trackedNames(*next), trackedNames(*world_));
   change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
@@ -80,6 +97,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   motion.missing.resize(scene.bodies.size());
   motion.motion_error.reserve(scene.bodies.size());
   motion.spans.reserve(scene.pairs.size());
+  change->cycle.watched.reserve(next->unreachable.size());
   change->cycle.gaps.reserve(scene.bodies.size());
   change->world = std::move(next);
   return change;

@@ -15,7 +15,7 @@ struct LoopChange {
   std::shared_ptr<const CheckedWorld> world;
   std::unique_ptr<MonitorChange> monitor;
   std::unique_ptr<TfTracker> tracker;
-  std::vector<int> pairs_before;  ///< per pair: former index of the pair of bodies of these names; -1 if it is new
+  std::vector<int> pairs_before;  ///< per pair, checked or watched: see TfTracker::continueFrom()
   std::unique_ptr<ReachGuard> reach_guard;
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;

@@ -2,9 +2,9 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "robot/proof_watch.h"
 #include "ros/tf/tf_tracker.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
@@ -20,60 +20,33 @@ class ReachGuard {
   /// @param robot  and its frames in tf.
   ReachGuard(const CheckedWorld& world, const DescribedScene& robot);
 
-  /// The pairs for which this does not hold at some recorded time of the cycle (but its first, which the cycle before
-  /// had), or whose joints are not known in tf.
+  /// The pairs for which this does not hold in the part of the cycle over which they are watched, or whose joints are
+  /// not known in tf.
   std::vector<UncheckedPair> check(const TfHistory& history, const TrackedCycle& cycle);
 
  private:
   struct Joint {
     RobotModel::Slide slide;
     const urdf::Joint* joint;
+    ros::Time until;      // it was looked at up to here
     std::string problem;  // in the last cycle
   };
 
-  /// A body of pairs that were left out.
-  struct Guarded {
-    std::size_t body;
-    int frame = -1;  // in chains_, of a body that is in no checked pair, so that its motion is not in the cycle's
-    BoundingBall ball;
-    int joined_to = -1;  // another one of its rigid group; -1 for the group's first
-    Isometry3d X_AB;     // in that one
-    bool is_known = false;
-    Isometry3d X_WB;   // if known, at the time that is looked at
-    Vector3d p_WBall;  // its ball's centre
-  };
-
-  struct GuardedPair {
-    std::size_t a, b;  // in guarded_
-    const UnreachablePair* pair;
-    double reach = 0.0;                    // sum of the balls' radii [m]
-    std::vector<std::size_t> joints = {};  // in joints_, which must keep to their ranges
-    bool is_reported = false;
-  };
-
-  void addGuarded(const UnreachablePair& pair, std::vector<int>& index);
-  std::pair<std::size_t, Isometry3d> groupOf(std::size_t body) const;
-  void copyMotion(const TfHistory& history, const TrackedCycle& cycle);
-  static void report(GuardedPair& pair, const std::string& reason, std::vector<UncheckedPair>& unchecked);
-  void checkPoses(const CycleMotion& motion, std::vector<UncheckedPair>& unchecked);
-  void checkJoints(const TrackedCycle& cycle, std::vector<UncheckedPair>& unchecked);
-  void findSpans(const CycleMotion& motion);
-  void place(const CycleMotion& motion, std::size_t waypoint);
-  bool areJoined() const;
-  bool mayMeet(const GuardedPair& pair) const;
-  std::string problem(std::size_t joint, const TrackedCycle& cycle);
+  void copyJoints(const TfHistory& history, const TrackedCycle& cycle);
+  std::string problem(std::size_t joint);
+  std::string notWatched(const TfHistory& history, const TrackedCycle& cycle, std::size_t pair) const;
 
   const CheckedWorld& world_;
   std::shared_ptr<const RobotModel> robot_;
+  ProofWatch watch_;
+  std::vector<bool> is_checked_;                  // per body: is in a pair that is checked
+  std::vector<std::vector<std::size_t>> slides_;  // per pair: in joints_, which must keep to their ranges
   std::vector<Joint> joints_;
-  TfChains chains_;  // to each joint's parent and child, then to guarded bodies that are in no checked pair
+  TfChains chains_;  // to each joint's parent and child
   std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
-  std::vector<Interval> known_parts_;  // per part [s] from the origin
   TfWindow window_;
-  std::vector<Guarded> guarded_;
-  std::vector<GuardedPair> apart_, joined_;
-  std::vector<WaypointSpan> known_;  // per body, in the last cycle
+  std::vector<double> times_, recorded_;  // of one joint
 };
 
 }  // namespace sdf_ccd

@@ -61,21 +61,25 @@ std::vector<TrackedBody> trackedBodies(const Scene& scene) {
 }
 
 TfTracker::TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const std::vector<PlannedPair>& pairs,
-                     const TfTrackerOptions& options)
+                     const TfTrackerOptions& options, const std::vector<PlannedPair>& watched)
     : history_(history),
       bodies_(bodies),
       frames_(framesOf(bodies)),
       pairs_(pairs),
+      checked_pairs_(pairs.size()),
       options_(options),
       sampler_(ballsOf(bodies), samplingOf(options, kMaxPoses)),
       chains_(frames_),
-      is_paired_(bodies.size(), 0) {
+      is_checked_(bodies.size(), 0) {
   for (const TrackedBody& body : bodies_) {
     distances_.push_back((body.X_frame_B * body.ball_B.center).norm() + body.ball_B.radius);
   }
   moving_.reserve(bodies_.size());
   static_.reserve(bodies_.size());
-  for (const PlannedPair& pair : pairs_) is_paired_[pair.body_a] = is_paired_[pair.body_b] = 1;
+  for (const PlannedPair& pair : pairs) is_checked_[pair.body_a] = is_checked_[pair.body_b] = 1;
+  is_paired_ = is_checked_;
+  for (const PlannedPair& pair : watched) is_paired_[pair.body_a] = is_paired_[pair.body_b] = 1;
+  pairs_.insert(pairs_.end(), watched.begin(), watched.end());
   times_.assign(pairs_.size(), {});
   reset();
 }
@@ -214,19 +218,18 @@ bool TfTracker::begin(bool waited_enough, const std::vector<std::string>& missin
 }
 
 ros::Time TfTracker::latestEnd(const std::vector<std::string>& missing) const {
-  bool is_one = true;  // whether all paired bodies that move have the same end
+  bool is_one = true;  // whether all checked bodies that move have the same end
   ros::Time latest;
   for (std::size_t body = 0; body < bodies_.size() && is_one; ++body) {
-    if (!is_paired_[body]) continue;
+    if (!is_checked_[body]) continue;
     is_one = missing[body].empty() && (ends_[body] == ros::TIME_MAX || latest.isZero() || ends_[body] == latest);
     if (ends_[body] != ros::TIME_MAX) latest = ends_[body];
   }
   if (is_one) return latest.isZero() ? reference_ : latest;
   latest = ros::Time();
-  for (const PlannedPair& pair : pairs_) {
-    const ros::Time end = std::min(ends_[pair.body_a], ends_[pair.body_b]);
-    const bool is_known = missing[pair.body_a].empty() && missing[pair.body_b].empty();
-    if (is_known && end != ros::TIME_MAX) latest = std::max(latest, end);
+  for (std::size_t p = 0; p < checked_pairs_; ++p) {
+    const ros::Time end = std::min(ends_[pairs_[p].body_a], ends_[pairs_[p].body_b]);
+    if (isKnown(p, missing) && end != ros::TIME_MAX) latest = std::max(latest, end);
   }
   return latest.isZero() ? reference_ : latest;
 }
@@ -244,7 +247,7 @@ ros::Time TfTracker::goesUntil(std::size_t pair, bool is_known, const ros::Time&
 /// Whether more is known of a pair that is behind the last cycle's end, or that it is too late.
 bool TfTracker::canCatchUp(const std::vector<std::string>& missing) const {
   if (are_together_) return false;
-  for (std::size_t p = 0; p < pairs_.size(); ++p)
+  for (std::size_t p = 0; p < checked_pairs_; ++p)
     if (times_[p].until < goesUntil(p, isKnown(p, missing), last_end_)) return true;
   return false;
 }
@@ -284,7 +287,7 @@ void TfTracker::advancePairs(TrackedCycle& cycle) {
     are_together &= is_known && from == cycle.start && until == cycle.end;
     cycle.complete_until = std::min(cycle.complete_until, until);
     if (from == until) {
-      if (until == cycle.end) continue;  // done, while others catch up
+      if (until == cycle.end || p >= checked_pairs_) continue;  // done, while others catch up
       cycle.delayed_since = cycle.delayed_since.isZero() ? from : std::min(cycle.delayed_since, from);
       continue;
     }

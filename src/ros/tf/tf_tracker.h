@@ -45,6 +45,8 @@ struct TrackedCycle {
   std::vector<double> samples;
   std::vector<double> recorded;  ///< [s] from origin: all recorded transforms, at which a discrete check would sample
   std::vector<double> gaps;      ///< per body: see TfWindow::gaps() [s]
+  std::vector<WaypointSpan>
+      watched;  ///< per watched pair of the tracker: its part of the motion, as CycleMotion::spans
 
   /// Transforms that arrived after newer ones, where cycles had already interpolated without them; one per frame. The
   /// pairs concerned are checked again in this cycle, from there on.
@@ -70,9 +72,11 @@ struct TrackedCycle {
 /// last forever or use up the memory. Bodies without a moving frame in their chain have one pose per cycle.
 class TfTracker {
  public:
-  /// @param pairs  of bodies, by index.
+  /// @param pairs    of bodies, by index.
+  /// @param watched  further pairs, over whose time the motion of both bodies is known too, in the cycles that `pairs`
+  /// need.
   TfTracker(TfHistory& history, const std::vector<TrackedBody>& bodies, const std::vector<PlannedPair>& pairs,
-            const TfTrackerOptions& options);
+            const TfTrackerOptions& options, const std::vector<PlannedPair>& watched = {});
 
   enum class Step {
     kWaiting,  ///< no new transforms yet
@@ -90,8 +94,8 @@ class TfTracker {
 
   /// Continues from another tracker, between two cycles, with other bodies. Does not allocate.
   /// @param bodies  per body, its index in `other`; -1 if it is new or has changed.
-  /// @param pairs   per pair, the index in `other` of the pair of bodies of the same names, whose time it continues; -1
-  /// if it is new and begins at the end of the last cycle.
+  /// @param pairs   per pair, then per watched pair, the index in `other` of the pair of bodies of the same names,
+  /// whose time it continues; -1 if it is new and begins at the end of the last cycle.
   void continueFrom(TfTracker& other, const std::vector<int>& bodies, const std::vector<int>& pairs);
 
   /// Finds the chains of all frames, before the first step.
@@ -134,13 +138,14 @@ class TfTracker {
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;
   std::vector<std::string> frames_;
-  std::vector<double> distances_;  // per body: bounds its ball's distance from its frame [m]
-  std::vector<PlannedPair> pairs_;
+  std::vector<double> distances_;   // per body: bounds its ball's distance from its frame [m]
+  std::vector<PlannedPair> pairs_;  // then the watched ones
+  std::size_t checked_pairs_;       // number of those before
   TfTrackerOptions options_;
   MotionSampler sampler_;
   TfChains chains_;
-  std::vector<char> is_paired_;  // per body
-  ros::Time begin_;              // of the first cycle's earliest pair
+  std::vector<char> is_paired_, is_checked_;  // per body: in any pair, and in one that is not just watched
+  ros::Time begin_;                           // of the first cycle's earliest pair
   ros::Time first_;              // before the first cycle: since when pairs could be checked; 0 if none could yet
   ros::Time last_end_;           // of the last cycle; 0 before the first
   ros::Time waits_since_;        // on the ROS clock; 0 before the first step

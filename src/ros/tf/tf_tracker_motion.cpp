@@ -247,16 +247,22 @@ void TfTracker::boundJerks(double start, double end, std::vector<double>& jerk) 
 
 void TfTracker::setSpans(TrackedCycle& cycle) const {
   const std::vector<double>& times = cycle.motion.times;
-  if (are_together_) return cycle.motion.spans.assign(pairs_.size(), {0, times.size() - 1});
+  std::vector<WaypointSpan>&spans = cycle.motion.spans, &watched = cycle.watched;
+  if (are_together_) {
+    spans.assign(checked_pairs_, {0, times.size() - 1});
+    return watched.assign(pairs_.size() - checked_pairs_, {0, times.size() - 1});
+  }
   const auto waypointAt = [&](const ros::Time& time) {
     const auto waypoint = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
     return static_cast<std::size_t>(waypoint - times.begin());
   };
-  std::vector<WaypointSpan>& spans = cycle.motion.spans;
   spans.clear();
+  watched.clear();
+  WaypointSpan span;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const bool is_as_last = p > 0 && times_[p] == times_[p - 1];
-    spans.push_back(is_as_last ? spans.back() : WaypointSpan{waypointAt(times_[p].from), waypointAt(times_[p].until)});
+    if (!is_as_last) span = {waypointAt(times_[p].from), waypointAt(times_[p].until)};
+    (p < checked_pairs_ ? spans : watched).push_back(span);
   }
 }
 
