@@ -15,10 +15,6 @@
 namespace sdf_ccd {
 namespace {
 
-bool isProved(const std::string& reason) {
-  return reason == kRigidlyJoined || reason == kOutOfReach;
-}
-
 /// Decides whether and why a pair of links needs no check.
 class PairFilter {
  public:
@@ -28,9 +24,9 @@ class PairFilter {
   /// @param ball_a  contains A's geometry; empty if its size is not known. The same for ball_b.
   std::string reason(const BodyDescription& a, const std::optional<ExtentBall>& ball_a, const BodyDescription& b,
                      const std::optional<ExtentBall>& ball_b) const {
-    if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
     std::string disabled = srdf_.whyDisabled(a.name, b.name);
     if (!disabled.empty()) return disabled;
+    if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
     if (!srdf_.isEnabled(a.name, b.name)) {
       if (srdf_.isDisabledByDefault(a.name) || srdf_.isDisabledByDefault(b.name)) return "SRDF: disabled by default";
       if (!options_.check_adjacent && robot_.adjacent(a.name, b.name)) return "adjacent";
@@ -135,7 +131,8 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
       const std::string reason = filter.reason(scene.bodies[i], balls[i], scene.bodies[j], balls[j]);
       if (reason.empty()) continue;
-      scene.allowed.push_back({scene.bodies[i].name, scene.bodies[j].name, reason, isProved(reason)});
+      const std::string &a = scene.bodies[i].name, &b = scene.bodies[j].name;
+      scene.allowed.push_back({a, b, reason, isProof(reason) || robot.rigidlyJoined(a, b)});
     }
   }
   return scene;
@@ -159,7 +156,7 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
       } else if (outOfReach(robot, object, *X_RB, body.name, extentBall(body.geometry))) {
         reason = kOutOfReach;
       }
-      if (!reason.empty()) scene.allowed.push_back({body.name, object.name, reason, isProved(reason)});
+      if (!reason.empty()) scene.allowed.push_back({body.name, object.name, reason, true});
     }
   }
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "common/number_text.h"
 #include "geometry_extent.h"
+#include "model/name_pair.h"
 #include "motion/screw_motion.h"
 #include "motion/two_body_motion.h"
 #include "urdf_geometry.h"
@@ -44,6 +46,10 @@ double leastDistance(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMo
 }
 
 }  // namespace
+
+bool isProof(const std::string& reason) {
+  return reason == kRigidlyJoined || reason == kOutOfReach;
+}
 
 std::string beyondReach(const RobotModel::Slide& slide, double position) {
   if (slide.low <= position && position <= slide.high) return {};
@@ -90,6 +96,17 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std
     pair.ball_b = ballOfBody(pair.body_b);
     pairs.push_back(std::move(pair));
   }
+  return pairs;
+}
+
+std::vector<UnreachablePair> withoutAllowed(std::vector<UnreachablePair> pairs, const SceneDescription& scene) {
+  std::set<NamePair> may_touch;
+  for (const AllowedPair& pair : scene.allowed)
+    if (pair.proved && !isProof(pair.reason)) may_touch.insert(namePair(pair.body_a, pair.body_b));
+  const auto mayTouch = [&](const UnreachablePair& pair) {
+    return may_touch.count(namePair(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name)) > 0;
+  };
+  if (!may_touch.empty()) pairs.erase(std::remove_if(pairs.begin(), pairs.end(), mayTouch), pairs.end());
   return pairs;
 }
 

@@ -204,6 +204,9 @@ TEST(RobotScene, SrdfDisablesAndEnables) {
   EXPECT_EQ(reasonFor(disabled.scene, "a", "c"), "SRDF: Never");
   EXPECT_EQ(reasonFor(disabled.scene, "a", "d"), "SRDF: disabled by default");
   EXPECT_EQ(reasonFor(disabled.scene, "c", "d"), "rigidly joined");
+  const auto of_user =
+      parseSrdf("<robot name='chain'><disable_collisions link1='d' link2='c' reason='Adjacent'/></robot>");
+  EXPECT_EQ(reasonFor(describe(chain(), of_user).scene, "c", "d"), "SRDF: Adjacent") << "not watched";
   ASSERT_EQ(disabled.warnings.size(), 1u);
   EXPECT_NE(disabled.warnings[0].find("ghost"), std::string::npos);
 

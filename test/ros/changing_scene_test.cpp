@@ -85,6 +85,45 @@ TEST_F(ChangingSceneTest, AnObjectThatWasOutOfReachIsCheckedWhereItHasMoved) {
   EXPECT_LT(scene_->unreachable(description()).size(), described_.unreachable.size());
 }
 
+/// Pairs that are left out because of the URDF: the last rule of the user decides whether they are watched.
+TEST_F(ChangingSceneTest, RulesEndAndBeginTheWatch) {
+  const auto isWatched = [&](const std::string& a, const std::string& b) {
+    const SceneDescription scene = description();
+    const std::vector<UnreachablePair> watched = withoutAllowed(scene_->unreachable(scene), scene);
+    return std::any_of(watched.begin(), watched.end(), [&](const UnreachablePair& pair) {
+      return namePair(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name) == namePair(a, b);
+    });
+  };
+  EXPECT_TRUE(isWatched("arm", "tool") && isWatched("arm", "table") && isWatched("base", "table"));
+  apply(rule(SceneChange::ALLOW, "*", "*"));
+  EXPECT_FALSE(isWatched("arm", "tool") || isWatched("arm", "table") || isWatched("base", "table"));
+  EXPECT_EQ(reason("arm", "tool"), "update_scene: * - *");
+  EXPECT_EQ(reason("arm", "table"), "update_scene: * - *");
+  apply(rule(SceneChange::CHECK, "arm", "*"));
+  EXPECT_TRUE(isWatched("arm", "tool") && isWatched("arm", "table") && !isWatched("base", "table"));
+  EXPECT_EQ(reason("arm", "tool"), "rigidly joined");
+  EXPECT_EQ(reason("arm", "table"), "out of reach");
+
+  parameters_.pairs.allowed = {{"*", "table"}};
+  described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
+  scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene);
+  EXPECT_TRUE(isWatched("arm", "tool") && !isWatched("arm", "table") && !isWatched("base", "table"));
+  apply(rule(SceneChange::CHECK, "*", "table"));
+  EXPECT_TRUE(isWatched("arm", "table") && isWatched("base", "table"));
+  EXPECT_EQ(reason("arm", "table"), "out of reach");
+  apply(change(SceneChange::FORGET_RULES, ""));
+  EXPECT_FALSE(isWatched("arm", "table") || isWatched("base", "table"));
+  SceneChange moved = change(SceneChange::MOVE, "table");
+  moved.pose.position.x = 3.0;
+  moved.pose.orientation.w = 1.0;
+  apply(moved);
+  EXPECT_FALSE(isWatched("base", "table"));
+  EXPECT_EQ(reason("base", "table"), "allowed_pairs: * - table");
+  apply(rule(SceneChange::CHECK, "*", "table"));
+  EXPECT_TRUE(isWatched("base", "table"));
+  EXPECT_EQ(reason("arm", "table"), "checked");
+}
+
 TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SceneChange bad = box("arm");

@@ -14,29 +14,32 @@ const ChangingScene::Rule* ChangingScene::lastRule(const std::string& a, const s
   return found == rules_.rend() ? nullptr : &*found;
 }
 
+std::string ChangingScene::textOf(const Rule& rule) {
+  return "update_scene: " + rule.pair.a + " - " + rule.pair.b;
+}
+
 /// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
 /// empty if it is checked.
-/// @param proved  receives whether they cannot touch, so that no rule can add the pair.
+/// @param proved  receives whether they are rigidly joined: without a rule that allows them to touch, they are watched
+/// instead of checked.
 std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const {
   const std::string& name = object.body.name;
   const auto known = objects_.find(other.name);
   const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
-  proved = true;
   const auto isLink = [&](const std::string& link) { return start_up_->link_names.count(link) > 0; };
-  if (isLink(object.link) && isLink(other_link) && start_up_->robot->rigidlyJoined(object.link, other_link))
-    return kRigidlyJoined;
+  const bool are_of_robot = isLink(object.link) && isLink(other_link);
   const bool is_static = start_up_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
-  if (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0) return kRigidlyJoined;
-  proved = false;
+  proved = (are_of_robot && start_up_->robot->rigidlyJoined(object.link, other_link)) ||
+           (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0);
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(),
                        [&](const auto& pattern) { return matches(pattern, touched); });
   };
-  const bool are_of_robot = isLink(object.link) && isLink(other_link);
   const bool may_touch = mayTouch(object.touch_links, other.name) ||
                          (known != objects_.end() && mayTouch(known->second.touch_links, name));
   if (are_of_robot && may_touch) return "attached, and allowed by touch_links";
-  return whyAllowed(start_up_->rules, name, other.name);
+  const std::string allowed = whyAllowed(start_up_->rules, name, other.name);
+  return allowed.empty() && proved ? kRigidlyJoined : allowed;
 }
 
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
@@ -68,9 +71,18 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
           start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
       if (!are_links) continue;
     }
-    const Rule* rule = pair.proved ? nullptr : lastRule(pair.body_a, pair.body_b);
-    if (rule && !rule->is_allowed) continue;
+    const Rule* rule = lastRule(pair.body_a, pair.body_b);
+    if (rule && !rule->is_allowed && !pair.proved) continue;
     scene.allowed.push_back(pair);
+    if (rule && pair.proved) {
+      const auto proof = start_up_->proofs.find(namePair(pair.body_a, pair.body_b));
+      std::string& reason = scene.allowed.back().reason;
+      if (rule->is_allowed) {
+        reason = textOf(*rule);
+      } else if (proof != start_up_->proofs.end()) {
+        reason = proof->second;
+      }
+    }
     if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
   }
   const auto moving = static_cast<std::size_t>(std::count_if(
@@ -92,7 +104,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       std::string reason;
       if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
       if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
-      if (rule && !proved) reason = rule->is_allowed ? "update_scene: " + rule->pair.a + " - " + rule->pair.b : "";
+      if (rule) reason = rule->is_allowed ? textOf(*rule) : proved ? kRigidlyJoined : "";
       if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
       scene.allowed.push_back({body_a.name, body_b.name, reason, proved});
     }

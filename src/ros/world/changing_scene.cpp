@@ -53,8 +53,11 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   start_up->visual_only = first.visual_only;
   start_up->allowed = first.allowed;
   start_up->unreachable = described.unreachable;
-  for (const UnreachablePair& pair : described.unreachable)
+  for (const UnreachablePair& pair : described.unreachable) {
     start_up->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);
+    const auto& [a, b] = start_up->unreachable_names.back();
+    start_up->proofs.emplace(namePair(a, b), pair.X_AB ? kRigidlyJoined : kOutOfReach);
+  }
   for (const std::string& link : described.robot->links()) {
     start_up->link_names.insert(link);
     if (described.robot->rigidlyJoined(described.robot->root(), link))

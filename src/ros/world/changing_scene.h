@@ -45,8 +45,7 @@ class ChangingScene {
   /// The complete scene, to be built. @throws std::length_error if it exceeds the limits.
   SceneDescription description(const RequestLimits& limits) const;
 
-  /// The pairs that were left out at start-up as out of reach and still are, with their bodies' indices in
-  /// description().
+  /// The pairs that are left out because of the URDF, with their bodies' indices in description().
   std::vector<UnreachablePair> unreachable(const SceneDescription& description) const;
 
   std::vector<std::string> objects() const;
@@ -87,6 +86,7 @@ class ChangingScene {
   std::string frameOf(const SceneChange& change, const std::string& fallback) const;
   void requireUsableName(const std::string& name) const;
   Object& find(const std::string& name);
+  static std::string textOf(const Rule& rule);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
 

@@ -15,7 +15,8 @@ struct ChangingScene::StartUp {
   std::vector<AllowedPair> allowed;
   std::vector<UnreachablePair> unreachable;
   std::vector<NamePair> unreachable_names;
-  std::set<std::string> root_frames;  // rigidly joined to the root link
+  std::map<NamePair, std::string> proofs;  // of these: why they are left out if no rule is about them
+  std::set<std::string> root_frames;       // rigidly joined to the root link
 };
 
 }  // namespace sdf_ccd

@@ -14,14 +14,15 @@ namespace sdf_ccd {
 /// A version of the world and the data about it that the core does not hold; immutable, shared by cycles and queries.
 struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
-  std::vector<UnreachablePair> unreachable;         ///< left out as long as the joints keep to their limits
+  std::vector<UnreachablePair> unreachable;         ///< left out as long as tf agrees with the URDF
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::vector<TrackedBody> bodies;
 
+  /// @param left_out  also pairs that rules of the user allow to touch.
   CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
                std::map<std::string, ros::Time> of_attached = {})
       : snapshot(std::move(of_snapshot)),
-        unreachable(std::move(left_out)),
+        unreachable(withoutAllowed(std::move(left_out), *snapshot->description)),
         attached_since(std::move(of_attached)),
         bodies(trackedBodies(*snapshot->scene)) {}
 

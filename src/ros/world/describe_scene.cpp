@@ -16,6 +16,17 @@ bool isHttp(const std::string& uri) {
   return uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0;
 }
 
+/// With the reasons that they have without the SRDF.
+std::vector<AllowedPair> provedPairs(const SceneDescription& scene) {
+  std::vector<AllowedPair> proved;
+  for (const AllowedPair& pair : scene.allowed) {
+    if (!pair.proved) continue;
+    proved.push_back(pair);
+    if (!isProof(pair.reason)) proved.back().reason = kRigidlyJoined;
+  }
+  return proved;
+}
+
 }  // namespace
 
 ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
@@ -82,11 +93,17 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
     described.scene.has_live_map = true;
   }
+  const std::vector<AllowedPair> proved = provedPairs(described.scene);
   applyRules(parameters.pairs, described.scene, described.warnings);
+  for (AllowedPair& pair : described.scene.allowed) {
+    // In spite of the SRDF: watched again, like the others.
+    if (pair.proved && !isProof(pair.reason) && matchesAny(parameters.pairs.checked, pair.body_a, pair.body_b))
+      pair.reason = kRigidlyJoined;
+  }
   described.kept = parameters.pairs.checked;
   for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});
   described.leave_out_overlapping = parameters.leave_out_overlapping;
-  described.unreachable = unreachablePairs(*robot, described.scene.bodies, described.scene.allowed);
+  described.unreachable = unreachablePairs(*robot, described.scene.bodies, proved);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }

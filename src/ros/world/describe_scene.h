@@ -22,7 +22,7 @@ struct DescribedScene {
   std::string tiles_begin;                   ///< prefix of the names of a live map's tiles; empty: there is no live map
   std::vector<PairRule> kept;                ///< pairs that are checked even if they always overlap
   bool leave_out_overlapping = true;         ///< see MonitorParameters
-  std::vector<UnreachablePair> unreachable;  ///< left out as long as the joints keep to their limits
+  std::vector<UnreachablePair> unreachable;  ///< left out because of the URDF, also if a rule allows them to touch
   std::vector<std::string> warnings;
 };
 
