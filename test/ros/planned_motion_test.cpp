@@ -47,7 +47,7 @@ class PlannedMotionTest : public ::testing::Test {
   }
 
   CycleMotion motion(const QueryMotion::Request& request) {
-    planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", unreachable_, now_, MotionSampling()});
+    planned_ = toPlannedMotion(request, {scene_, {}, robot_, "virtual", unreachable_, now_, MotionSampling()});
     samples_ = planned_.samples;
     CycleMotion motion;
     planned_.piece(0, planned_.waypoints.size() - 1, motion);

@@ -76,5 +76,110 @@ TEST_F(QueriesTest, EndsSoonWithItsCaller) {
   EXPECT_THROW(queries_->answer(heavyRequest(), response), Cancelled);
 }
 
+/// In the URDF the base is fixed in the world; an arm and a leaf turn on it, which are checked. tf has the base
+/// elsewhere, by a post.
+class MovedBaseTest : public ::testing::Test {
+ protected:
+  MovedBaseTest() {
+    const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+    const auto turning = [&](const std::string& name, const std::string& z) {
+      return "<link name='" + name + "'>" + "<collision><origin xyz='0.5 0 0'/><geometry><sphere radius='0.1'/>" +
+             "</geometry></collision></link><joint name='j_" + name + "' type='continuous'><parent link='base'/>" +
+             "<child link='" + name + "'/><origin xyz='0 0 " + z + "'/><axis xyz='0 0 1'/></joint>";
+    };
+    MonitorParameters parameters = parseParameters({}, "~");
+    parameters.urdf = "<robot name='r'><link name='world'/><link name='base'>" + ball +
+                      "</link><joint name='stands' type='fixed'><parent link='world'/><child link='base'/></joint>" +
+                      turning("arm", "0.4") + turning("leaf", "0.5") + "</robot>";
+    parameters.scene.cache_directory.clear();
+    WorldObject post;
+    post.name = "post";
+    post.X_frame_B.translation() = Vector3d(3.5, 0.0, 0.4);
+    post.shapes = {{Primitive(Sphere{0.1})}};
+    parameters.world.push_back(post);
+    described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
+    loop_ =
+        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+    queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters, loop_->history(), QueryLimits());
+  }
+
+  void send(double base) {
+    const auto turned = [](double angle) { return Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ())); };
+    time_ += 0.1;
+    loop_->history().add(message({stampedTransform("world", "base", time_, base),
+                                  stampedTransform("base", "arm", ros::Time(time_), turned(1.5), {0.0, 0.0, 0.4}),
+                                  stampedTransform("base", "leaf", ros::Time(time_), turned(-2.5), {0.0, 0.0, 0.5})}),
+                         false);
+  }
+
+  /// "body - body: reason" of the pairs that are not checked while the arm turns.
+  std::vector<std::string> uncheckedWithArm(double from, double to) {
+    QueryMotion::Request request;
+    request.trajectory.joint_names = {"j_arm"};
+    for (const double angle : {from, to}) {
+      request.trajectory.points.emplace_back();
+      request.trajectory.points.back().positions = {angle};
+      request.trajectory.points.back().time_from_start = ros::Duration(request.trajectory.points.size());
+    }
+    QueryMotions::Request several;
+    several.motions.resize(1);
+    several.motions[0].joint_trajectory = request.trajectory;
+    QueryMotions::Response verdicts;
+    queries_->answer(several, verdicts);
+    const std::vector<std::string> unchecked = uncheckedOf(request);
+    const bool is_clear = !verdicts.verdicts.empty() && verdicts.verdicts[0] == QueryMotion::Response::CLEAR;
+    EXPECT_EQ(is_clear, unchecked.empty());
+    for (const std::string& pair : unchecked)
+      EXPECT_NE(verdicts.message.find(pair), std::string::npos) << verdicts.message;
+    return unchecked;
+  }
+
+  std::vector<std::string> uncheckedOf(const QueryMotion::Request& request) {
+    QueryMotion::Response response;
+    queries_->answer(request, response);
+    EXPECT_TRUE(response.success) << response.message;
+    EXPECT_GT(response.checked, 0);
+    std::vector<std::string> unchecked;
+    for (const PairContact& pair : response.pairs)
+      unchecked.push_back(pair.body_a + " - " + pair.body_b + ": " + pair.reason.substr(0, pair.reason.find(':')));
+    EXPECT_EQ(response.verdict, unchecked.empty() ? QueryMotion::Response::CLEAR : QueryMotion::Response::NOT_CHECKED);
+    return unchecked;
+  }
+
+  DescribedScene described_;
+  std::unique_ptr<MonitorLoop> loop_;
+  std::unique_ptr<Queries> queries_;
+  double time_ = kStart;
+};
+
+TEST_F(MovedBaseTest, APlanKnowsWhatTheUrdfDoesNotHave) {
+  using Pairs = std::vector<std::string>;
+  const std::string joined = "base - post: rigidly joined in the URDF, but not in tf";
+  send(0.0);
+  EXPECT_EQ(uncheckedWithArm(1.0, 1.5), Pairs());
+  send(3.0);
+  EXPECT_EQ(uncheckedWithArm(1.0, 1.5), Pairs({joined})) << "beside the post";
+  EXPECT_EQ(uncheckedWithArm(1.0, -1.0),
+            Pairs({joined, "arm - post: out of reach according to the URDF, but close to each other in tf"}))
+      << "through it, between two points";
+}
+
+TEST_F(MovedBaseTest, PosesOfAnotherLinkKnowIt) {
+  QueryMotion::Request request;
+  request.links = {"leaf"};
+  for (int i = 0; i < 2; ++i) {
+    request.poses.emplace_back();
+    request.poses.back().time_from_start = ros::Duration(i);
+    request.poses.back().poses.resize(1);
+    request.poses.back().poses[0].position.z = 5.0 + i;
+    request.poses.back().poses[0].orientation.w = 1.0;
+  }
+  send(0.0);
+  EXPECT_EQ(uncheckedOf(request), std::vector<std::string>());
+  send(3.0);
+  EXPECT_EQ(uncheckedOf(request), std::vector<std::string>{"base - post: rigidly joined in the URDF, but not in tf"});
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -11,6 +11,7 @@
 #include "common/refuse.h"
 #include "motion/two_body_motion.h"
 #include "ros/messages/conversions.h"
+#include "ros/monitor/planned_watch.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -184,6 +185,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
     if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
+  addContradicted(planned, result);
   result.notes = notesOf(plan);
   const std::string carried = movesRoot(request, planned) ? carriedObjectsNote(planned) : "";
   if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
@@ -230,7 +232,9 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     motion.missing[body].clear();
     is_moved[body] = true;
   }
-  return planThrough(std::move(motion), is_moved, planned.unreachable);
+  PlannedMotion result = planThrough(std::move(motion), is_moved, planned.unreachable);
+  addContradicted(planned, is_moved, result);
+  return result;
 }
 
 /// Pose of a frame in one above it, at the last time at which its chain from the fixed frame is known.
@@ -273,6 +277,7 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
       now.joints.missing[joint] = problem;
     }
   }
+  now.joints_deviate = doJointsDeviate(robot, now.joints);
   for (const Body& body : scene.bodies) {
     Carrier carrier;
     std::vector<std::string> above = history.framesAbove(body.frame);

@@ -22,6 +22,7 @@ struct CurrentPoses {
   Isometry3d X_WR = Isometry3d::Identity();  ///< of the robot's root link
   std::string root_missing;                  ///< why that is not known; empty if it is
   CurrentJoints joints;
+  bool joints_deviate = false;       ///< doJointsDeviate()
   std::vector<Isometry3d> X_WB;      ///< per body
   std::vector<std::string> missing;  ///< per body: why that is not known
   std::vector<Carrier> carriers;     ///< per body
@@ -36,6 +37,7 @@ struct CurrentPoses {
 /// The scene and the present poses that a planned motion starts from.
 struct PlannedScene {
   const Scene& scene;
+  const SceneDescription& description;
   const RobotModel& robot;
   std::string base_joint;  ///< the SRDF's virtual joint of the root link; may be empty
   const std::vector<UnreachablePair>& unreachable;

@@ -147,7 +147,7 @@ PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWo
   posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
   const std::string frame = withoutLeadingSlash(plan_frame);
   history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-  return {world.scene(), *robot_, base_joint_, world.unreachable, now, sampling_};
+  return {world.scene(), world.description(), *robot_, base_joint_, world.unreachable, now, sampling_};
 }
 
 PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
@@ -244,6 +244,9 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       try {
         PlannedMotion planned = toPlannedMotion(one, now);
         notes.add(first + i, planned.notes);
+        for (const UncheckedPair& pair : planned.unchecked)
+          notes.add(first + i,
+                    scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name + ": " + pair.reason);
         return planned;
       } catch (const std::invalid_argument& error) {
         refuse("motion " + std::to_string(first + i) + ": " + error.what());
