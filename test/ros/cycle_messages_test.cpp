@@ -99,6 +99,7 @@ TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
   EXPECT_EQ(last().reason, "1 pair could not be checked, for example " + uncheckedPair(*loop_));
   EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.0)).reason, last().reason);
+  EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.0)).min_clearance, 0.0);
   EXPECT_EQ(uncheckedCause(*loop_), "");
 }
 

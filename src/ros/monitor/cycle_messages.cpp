@@ -82,7 +82,7 @@ void setScalars(const MonitorLoop& loop, MonitorState& message) {
   message.max_depth = message.max_force = 0.0;
   message.min_clearance = std::numeric_limits<double>::infinity();
   for (const PairResult& pair : loop.result().pairs) {
-    if (pair.span.empty() || pair.verdict == Verdict::kNotChecked) continue;
+    if (pair.span.empty()) continue;
     message.min_clearance =
         std::min(message.min_clearance, pair.verdict == Verdict::kClear ? std::max(0.0, pair.clearance) : 0.0);
     if (pair.intervals.empty()) continue;
