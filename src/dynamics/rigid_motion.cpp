@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <string>
+
+#include "common/number_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -38,19 +40,20 @@ Vector3d midpointSpin(const Matrix3d& inertia, const Vector3d& spin, double h) {
 
 void requireBounded(const RigidBody& body, const BodyState& state, const Vector3d& velocity, double duration,
                     long step) {
-  const auto refuse = [&](const char* what, double value, const char* unit) {
-    std::ostringstream reason;
-    reason << what << value << unit << "; shorten the step or lower the stiffness";
-    throw SimulationError(body.name, step, reason.str());
+  const auto refuse = [&](const std::string& what, double limit, const std::string& unit) {
+    throw SimulationError(
+        body.name, step,
+        what + ", at most " + numberText(limit) + unit + " can be computed; shorten the step or lower the stiffness");
   };
   if (!velocity.allFinite() || !state.spin_B.allFinite() || !state.X_OB.matrix().allFinite()) {
     throw SimulationError(body.name, step, "its state is no longer finite; shorten the step or lower the stiffness");
   }
   const double travel = duration * velocity.norm(), angle = duration * state.spin_B.norm();
-  if (!(travel <= kMaxDistance)) refuse("it would move ", travel, " m in one step");
-  if (!(angle <= kMaxAngle)) refuse("it would rotate ", angle, " rad in one step");
+  if (!(travel <= kMaxDistance)) refuse("it would move " + numberText(travel) + " m in one step", kMaxDistance, " m");
+  if (!(angle <= kMaxAngle)) refuse("it would rotate " + numberText(angle) + " rad in one step", kMaxAngle, " rad");
   const double distance = state.X_OB.translation().norm();
-  if (!(distance <= kMaxDistance)) refuse("it is ", distance, " m from the scene's origin");
+  if (!(distance <= kMaxDistance))
+    refuse("it is " + numberText(distance) + " m from the scene's origin", kMaxDistance, " m");
 }
 
 }  // namespace

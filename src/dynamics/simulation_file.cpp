@@ -18,7 +18,7 @@ ContactOptions readContact(YamlMap contact) {
   ContactOptions options;
   options.stiffness = contact.get("stiffness", options.stiffness);
   options.damping = contact.get("damping", options.damping);
-  options.midpoint_intervals = contact.get("midpoint_intervals", options.midpoint_intervals);
+  options.midpoint_intervals = contact.count("midpoint_intervals", options.midpoint_intervals, 1, 10000);
   const auto is_first = [&](const std::string& key, const std::string& first, const std::string& second) {
     return contact.choice(key, {first, second}, first) == 0;
   };

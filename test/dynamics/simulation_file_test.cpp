@@ -88,6 +88,10 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   holds(reasonOf("shape: box", "shape: box, mass: -2"), "body `box`, step 0: mass must be finite and positive, got -2");
   holds(reasonOf("shape: box", "shape: box, mass: .nan"), "body `box`, step 0: mass");
   holds(reasonOf("stiffness: 1.0e+8", "stiffness: -1"), "stiffness must be finite and not negative");
+  for (const char* count : {"0", "2000000000"}) {
+    holds(reasonOf("damping: 1.0e+4", std::string("quadrature: midpoint, midpoint_intervals: ") + count),
+          std::string("line 4, contact: `midpoint_intervals` must be 1 to 10000, got ") + count);
+  }
   holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4, contact: `stiffness` occurs twice");
   holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6, shape `box`: `traversal`: expected hierarchy or linear");
   holds(reasonOf("spacing: 0.02", "spacing: 0"), "line 6, shape `box`: `spacing` must be finite and positive, got 0");
