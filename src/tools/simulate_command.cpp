@@ -22,9 +22,12 @@ struct Arguments {
   double frames = 30.0;                  // per second
 };
 
+constexpr double kUnstable = 0.1;  // growth of energy that is told, relative to the highest kinetic and elastic energy
+
 /// Summary of a finished run.
 struct Summary {
   double highest_rise = 0.0;  // of the energy from one step to the next [J]
+  double moving = 0.0;        // highest kinetic and elastic energy [J]
   double deepest = 0.0;       // at a step's end [m]
   double reaction_error = 0.0;
   double energy_excess = 0.0;
@@ -33,6 +36,7 @@ struct Summary {
 
   void add(const StepRecord& before, const StepRecord& now) {
     highest_rise = std::max(highest_rise, now.energy() - before.energy());
+    moving = std::max(moving, now.kinetic + now.elastic);
     deepest = std::max(deepest, now.deepest);
     reaction_error = std::max(reaction_error, now.reaction_error);
     energy_excess += now.energy_excess;
@@ -59,6 +63,10 @@ std::string report(const Arguments& arguments, const SimulationSetup& setup, con
        << "run time         " << durationText(summary.run_time) << ", "
        << shortText(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
   if (summary.energy_excess > 0.0) text << "energy excess    " << shortText(summary.energy_excess) << " J\n";
+  if (end.energy() - start.energy() > kUnstable * summary.moving + 1e-6 * std::abs(start.energy())) {
+    text << "warning          the energy grew from " << shortText(start.energy()) << " J to " << shortText(end.energy())
+         << " J: the integrator is not stable here; shorten the step, lower the stiffness, or use implicit\n";
+  }
   return text.str();
 }
 

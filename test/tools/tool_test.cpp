@@ -294,6 +294,19 @@ TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
   expectRefused("simulate . --out no", "is a directory");
 }
 
+TEST_F(Tool, SimulateWarnsOfEnergyThatGrew) {
+  write("scene.yaml",
+        "step: 0.001\nduration: 0.3\ncontact: {stiffness: 1.0e+12}\n"
+        "shapes: {box: {type: box, size: [0.1, 0.1, 0.1]}, ground: {type: plane}}\n"
+        "bodies: [{name: ground, shape: ground, fixed: true}, {name: box, shape: box, xyz: [0, 0, 0.3]}]\n");
+  for (const char* integrator : {"discrete", "implicit"}) {
+    const ToolRun result = run(std::string("simulate scene.yaml --out made --integrator ") + integrator);
+    EXPECT_EQ(result.exit_code, kDone) << result.error;
+    const bool warns = result.out.find("warning          the energy grew from 2.94 J to ") != std::string::npos;
+    EXPECT_EQ(warns, std::string(integrator) == "discrete") << result.out;
+  }
+}
+
 TEST_F(Tool, InterruptedSimulationKeepsWhatItHas) {
   write("scene.yaml",
         "step: 0.001\nduration: 1.0e+5\ngravity: [0, 0, 0]\nshapes: {ball: {type: sphere, radius: 0.1}}\n"
