@@ -201,7 +201,9 @@ TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
     if (loop->step(ros::Time(time), {}) != TfTracker::Step::kCycle) continue;
     unchecked.clear();
     for (const PairContact& pair : toContactArray(*loop).pairs) unchecked.insert(pair.body_a + " - " + pair.body_b);
-    if (i < 10) EXPECT_EQ(unchecked, std::set<std::string>());
+    if (i < 10) {
+      EXPECT_EQ(unchecked, std::set<std::string>());
+    }
   }
   EXPECT_EQ(unchecked, std::set<std::string>({"l1 - l2"}));
 }
