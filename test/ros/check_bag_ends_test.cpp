@@ -274,7 +274,8 @@ TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
   writeHeldContact([](double) { return true; });  // the elbow's
   const ToolRun result = run(check("held.bag", "made"));
   EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("joint_states never gives positions of these joints of the robot: elbow\n"), std::string::npos)
+  EXPECT_NE(result.error.find("joint_states never gives positions of these joints of the robot: elbow\n"),
+            std::string::npos)
       << result.error;
   const ToolRun complete = run(check("arm.bag", "whole"));
   EXPECT_EQ(complete.error.find("never gives"), std::string::npos) << complete.error;
