@@ -131,10 +131,11 @@ void boxSupports(const BoxTree::Node& node, const std::array<float, 3>& directio
 /// error of 5 ε, its product with an axis 3 ε more, times half sizes of at most √3 M: 14 ε M for each box. Rounded
 /// axes are not exactly orthogonal: a box that contains its triangles along each of them reaches farther along a third
 /// direction by 3 ε of its half sizes, 6 ε M for each. Sums of seven terms add 7 ε M, axes that are not exactly unit
-/// 2 ε M. A displacement has a relative error of 4 ε; when a gap is small, the boxes are displaced by no more than
-/// about M at that time, even if they pass each other quickly. In total that is less than 64 ε M along an axis. The
-/// root of the squares of three gaps adds up to √3 of that, 111 ε M; three axes off by 5 ε each are orthogonal up to 9
-/// ε, and squares, sums and roots are rounded, 3 ε. In total that is less than 124 ε M.
-constexpr double kBoxRounding = 128.0 / (1 << 24);
+/// 2 ε M. A displacement has a relative error of 4 ε, and so have the three by which a box's ends move more, together
+/// no more than √3 M: 11 ε M; when a gap is small, the boxes are displaced by no more than about M at that time, even
+/// if they pass each other quickly. In total that is less than 77 ε M along an axis. The root of the squares of three
+/// gaps adds up to √3 of that, 134 ε M; three axes off by 5 ε each are orthogonal up to 9 ε, and squares, sums and
+/// roots are rounded, 3 ε. In total that is less than 147 ε M.
+constexpr double kBoxRounding = 160.0 / (1 << 24);
 
 }  // namespace sdf_ccd

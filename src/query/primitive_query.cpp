@@ -75,9 +75,9 @@ class RoundLine {
   template <class Add>
   void addCrossings(double offset, double slope, const Add& add) const {
     const double a = a_ - slope * slope, b = b_ - offset * slope, c = c_ - offset * offset;
-    const double discriminant = b * b - a * c;
-    if (!(discriminant >= 0.0)) return;
-    const double s = -(b + std::copysign(std::sqrt(discriminant), b));  // the form that does not cancel
+    const double discriminant = b * b - a * c, rounding = 16.0 * std::numeric_limits<double>::epsilon() * b * b;
+    if (!(discriminant >= -rounding)) return;
+    const double s = -(b + std::copysign(std::sqrt(std::max(discriminant, 0.0)), b));  // the form that does not cancel
     if (a != 0.0) add(s / a);
     if (s != 0.0) add(c / s);
   }

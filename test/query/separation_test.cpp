@@ -395,6 +395,18 @@ TEST(Separation, FacesMayTurnByMuch) {
   }
 }
 
+/// Faces at rest that are closer than single precision tells.
+TEST(Separation, FacesAMicrometreApartTakeFewTests) {
+  const BoxTree disc = treeOf(tessellate(Cylinder{0.1, 0.05}, 1e-5));
+  Isometry3d above = Isometry3d::Identity();
+  above.translation().z() = 0.1 + 1e-6;
+  const Isometry3d at_rest = Isometry3d::Identity();
+  const Separation found = Case{&disc, &disc, at_rest, at_rest, above, above}.query();
+  ASSERT_EQ(found.state, SeparationState::kApart);
+  EXPECT_NEAR(found.distance, 1e-6, 1e-12);
+  EXPECT_LT(found.tests, 2000);
+}
+
 /// Bounds of surfaces of many triangles, which long searches and planes between hulls prove.
 TEST(Separation, BoundsOfDenseSurfacesAreTrue) {
   Shapes shapes;

@@ -100,13 +100,15 @@ inline Crossing crossingOf(const LeafCorners& leaf, const Lanes& lanes, const Ex
     several = hn::And(several, may_turn);
   }
 
-  // The only root of the other lanes that cross: by Newton's method within a shrinking bracket. It does not begin at an
-  // end where the value is zero and negative beside: that root is not the one where the sign changes.
+  // Near zero at an end, rounding decides about the sign there: the cubic may have two roots where one seems to be.
+  const VF rounding =
+      hn::Mul(real(1e-6F), hn::Add(hn::Add(hn::Abs(c0), hn::Abs(c1)), hn::Add(hn::Abs(c2), hn::Abs(c3))));
+  const MF doubtful = hn::Or(hn::Le(hn::Abs(c0), rounding), hn::Le(hn::Abs(at_end), rounding));
+  several = hn::Or(several, hn::And(crossing, doubtful));
+
+  // The only root of the other lanes that cross: by Newton's method within a shrinking bracket.
   VF lo = zero, hi = one;
-  const MF zero_at_end = hn::Or(hn::And(hn::Eq(c0, zero), hn::Lt(hn::Min(b1, b2), zero)),
-                                hn::And(hn::Eq(at_end, zero), hn::Lt(hn::Min(b1, b2), zero)));
   VF u = hn::Div(c0, hn::Sub(c0, hn::IfThenElse(crossing, at_end, hn::Add(c0, one))));
-  u = hn::IfThenElse(zero_at_end, real(0.5F), u);
   const MF sought = hn::AndNot(several, crossing);
   MF loose = sought;
   for (int i = 0; i < 6 && !hn::AllFalse(f, loose); ++i) {
