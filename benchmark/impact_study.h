@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "precision/studies.h"
 
 namespace sdf_ccd::benchmark {

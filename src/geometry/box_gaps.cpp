@@ -33,8 +33,10 @@ SDF_CCD_INLINE Vectors displacements(const BoxMotion& m, const Vectors& center) 
 struct InAnyDirection {
   Floats most;
 
-  SDF_CCD_INLINE Floats along(const Vectors&) const { return Floats{}; }
-  SDF_CCD_INLINE Floats along(const std::array<float, 3>&) const { return Floats{}; }
+  template <class Direction>
+  SDF_CCD_INLINE Floats along(const Direction&) const {
+    return Floats{};
+  }
 };
 
 /// The same along each direction: of the node's boxes, by their three half extents.
@@ -42,10 +44,8 @@ struct OfNode {
   Vectors spread[3];
   Floats most = {};
 
-  SDF_CCD_INLINE Floats along(const Vectors& n) const {
-    return absolute(spread[0].dot(n)) + absolute(spread[1].dot(n)) + absolute(spread[2].dot(n));
-  }
-  SDF_CCD_INLINE Floats along(const std::array<float, 3>& n) const {
+  template <class Direction>
+  SDF_CCD_INLINE Floats along(const Direction& n) const {
     return absolute(spread[0].dot(n)) + absolute(spread[1].dot(n)) + absolute(spread[2].dot(n));
   }
 };

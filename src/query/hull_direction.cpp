@@ -1,8 +1,9 @@
 #include "hull_direction.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "common/infinity.h"
 #include "geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -15,7 +16,7 @@ Vector3d supportPoint(const BoxTree& tree, const Vector3d& n) {
   const double rounding = kBoxRounding * tree.ball().radius;
   std::array<std::int32_t, kMaxBoxes> pending;
   int size = 0;
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -kInfinity;
   Vector3d point = tree.origin();
   pending[size++] = 0;
   while (size > 0) {
@@ -38,6 +39,16 @@ Vector3d supportPoint(const BoxTree& tree, const Vector3d& n) {
     }
   }
   return point;
+}
+
+/// How far the tree's triangles extend along a direction, from its origin.
+double extentOf(const BoxTree& tree, const Vector3d& n) {
+  double extent = -kInfinity;
+  for (int i = 0; i < static_cast<int>(tree.size()); ++i) {
+    const RoundedTriangle& t = tree.triangle(i);
+    for (const Vector3d& p : t.corners) extent = std::max(extent, n.dot(p - tree.origin()) + t.radius);
+  }
+  return extent;
 }
 
 /// The points of B at both poses minus those of A, from A's origin: only its extreme points are ever found.
@@ -80,7 +91,7 @@ class Simplex {
       nearest_ = nearestOf(0, std::min(1, size_ - 1), size_ - 1);
       return true;
     }
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     int left_out = -1;
     for (int k = 0; k < 3; ++k) {  // faces with the new point
       const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -114,6 +125,15 @@ class Simplex {
 ExtentsAlong extentsAlong(const BoxTree& a, const BoxTree& b, const EndPoses& poses, const Vector3d& n_A) {
   const Difference difference(a, b, poses);
   return {n_A.dot(difference.endA(n_A)), n_A.dot(difference.beginB(n_A))};
+}
+
+double gapAlong(const BoxTree& a, const BoxTree& b, const EndPoses& poses, const Vector3d& n_A) {
+  double begin_b = kInfinity;
+  for (const Isometry3d& X : {poses.X_AB_start, poses.X_AB_end}) {
+    const Vector3d n_B = X.linear().transpose() * n_A;
+    begin_b = std::min(begin_b, n_A.dot(X * b.origin() - a.origin()) - extentOf(b, -n_B));
+  }
+  return begin_b - extentOf(a, n_A);
 }
 
 std::optional<Vector3d> hullDirection(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {

@@ -18,6 +18,9 @@ struct ExtentsAlong {
 /// @param n_A  a unit vector.
 ExtentsAlong extentsAlong(const BoxTree& a, const BoxTree& b, const EndPoses& poses, const Vector3d& n_A);
 
+/// The gap itself, over all corners in double precision.
+double gapAlong(const BoxTree& a, const BoxTree& b, const EndPoses& poses, const Vector3d& n_A);
+
 /// A direction along which all of B, at both poses, lies beyond all of A, with about the largest gap: that between the
 /// convex hull of A and that of B at both poses (Gilbert, Johnson, Keerthi 1988). It needs a proof: see MovingBoxes.
 /// @return frame A; std::nullopt if the hulls meet, or it was not found in a few steps.

@@ -200,23 +200,21 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
   BoxMotion motion{};
   motion.shift = sum(times(difference_A_, center), shift_A_);
   motion.any = moving_.any;
-  const PlacedBox box = boxInA(box_b);
-  if (is_close_) directedBoxGaps(node, box, direction_A_, motion, spreadInA(box_b), cut, found);
-  motion.any += moving_.any_per_reach * of_b.reach[box_b.lane];
-  if (!is_close_) boxGaps(node, box, direction_A_, motion, cut, found);
+  BoxMotion in_any_direction = motion;
+  in_any_direction.any += moving_.any_per_reach * of_b.reach[box_b.lane];
+  if (!is_close_) return boxGaps(node, boxInA(box_b), direction_A_, in_any_direction, cut, found);
+  directedBoxGaps(node, boxInA(box_b), direction_A_, motion, spreadInA(box_b), cut, found);
   const RoundedTriangle* triangle = onlyTriangle(b_, box_b);
-  if (triangle && is_close_ && found.near != 0)
-    sharpen({placedInA(triangle->corners), triangle->radius}, of_b.reach[box_b.lane], node, motion, cut, found);
+  if (triangle && found.near != 0)
+    sharpen({placedInA(triangle->corners), triangle->radius}, of_b.reach[box_b.lane], node, in_any_direction, cut,
+            found);
 }
 
 void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
-  if (is_close_) {
-    directedBoxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
-  } else {
-    boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
-  }
+  if (!is_close_) return boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
+  directedBoxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
   const RoundedTriangle* triangle = onlyTriangle(a_, box_a);
-  if (triangle && is_close_ && found.near != 0) {
+  if (triangle && found.near != 0) {
     const float reach = a_.node(box_a.node).reach[box_a.lane];
     sharpen({placedInB(triangle->corners), triangle->radius}, reach, node, moving_, cut, found);
   }

@@ -292,25 +292,10 @@ class SeparationQuery {
   /// As isSlabFree(), from all corners in double precision: where gaps are smaller than the rounding of boxes.
   bool isGapFree(const Vector3d& n_A) {
     tests_ += static_cast<int>((a_.size() + b_.size()) / kTestsOfAPlane);
-    const double end_a = reachOf(a_, n_A, a_.origin());
-    double begin_b = kInfinity;
-    for (const Isometry3d& X : {poses_.X_AB_start, poses_.X_AB_end}) {
-      const Vector3d n_B = X.linear().transpose() * n_A;
-      begin_b = std::min(begin_b, n_A.dot(X * b_.origin() - a_.origin()) - reachOf(b_, -n_B, b_.origin()));
-    }
-    const double apart = begin_b - end_a - chord_error_;
+    const double apart = gapAlong(a_, b_, poses_, n_A) - chord_error_;
     if (!(apart > options_.margin)) return false;
     lowest_ = std::min(lowest_, apart);
     return true;
-  }
-
-  static double reachOf(const BoxTree& tree, const Vector3d& n, const Vector3d& from) {
-    double reach = -kInfinity;
-    for (int i = 0; i < int(tree.size()); ++i) {
-      const RoundedTriangle& t = tree.triangle(i);
-      for (const Vector3d& p : t.corners) reach = std::max(reach, n.dot(p - from) + t.radius);
-    }
-    return reach;
   }
 
   /// With the direction in which the hulls are farthest apart: where triangles turn on each other, those that are

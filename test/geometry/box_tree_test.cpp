@@ -118,20 +118,28 @@ TEST(BoxTree, GapsAreNoMoreThanDistances) {
   EXPECT_LT(tightest, 1e-3) << "some gap is nearly the distance";
 }
 
+/// A cube at the origin, in a node of its own, and another one, with axes along the coordinates.
+struct TwoCubes {
+  BoxTree::Node node{};
+  PlacedBox box{};
+
+  TwoCubes(float half_of_node, float half_of_box, const std::array<float, 3>& center_of_box) {
+    node.radius.fill(-1e30F);
+    node.radius[0] = 0.0F;
+    node.count = 1;
+    for (int k = 0; k < 3; ++k) {
+      node.axis[k][k].fill(box.axis[k][k] = 1.0F);
+      node.half[k][0] = half_of_node;
+      box.half[k] = half_of_box;
+    }
+    box.center = center_of_box;
+  }
+};
+
 /// The root sum of squares of the gaps along three orthogonal axes, where the boxes face each other with corners.
 TEST(BoxTree, GapsOfBoxesAtACornerAreTheirDistance) {
-  BoxTree::Node node{};
-  node.radius.fill(-1e30F);
-  node.radius[0] = 0.0F;
-  node.count = 1;
-  PlacedBox box{};
-  for (int k = 0; k < 3; ++k) node.axis[k][k].fill(box.axis[k][k] = 1.0F);
   const Vector3d d(0.3, 0.4, 1.2);
-  for (int k = 0; k < 3; ++k) {
-    node.half[k][0] = 0.2F;
-    box.half[k] = 0.1F;
-    box.center[k] = float(0.3 + d[k]);
-  }
+  const auto [node, box] = TwoCubes(0.2F, 0.1F, {float(0.3 + d.x()), float(0.3 + d.y()), float(0.3 + d.z())});
   NearBoxes found;
   boxGaps(node, box, {1, 0, 0}, BoxMotion{}, 0.0F, found);
   EXPECT_NEAR(found.gaps[0], d.norm(), 1e-6);
@@ -142,17 +150,8 @@ TEST(BoxTree, GapsOfBoxesAtACornerAreTheirDistance) {
 
 /// Boxes that turn about the axis along which they are apart stay as far apart, whichever of them turns.
 TEST(BoxTree, GapsOfBoxesThatTurnOnEachOtherAreTheirDistance) {
-  BoxTree::Node node{};
-  node.radius.fill(-1e30F);
-  node.radius[0] = 0.0F;
-  node.count = 1;
-  PlacedBox box{};
-  for (int k = 0; k < 3; ++k) {
-    node.axis[k][k].fill(box.axis[k][k] = 1.0F);
-    node.half[k][0] = box.half[k] = 0.2F;
-  }
+  auto [node, box] = TwoCubes(0.2F, 0.2F, {0, 0, 0.41F});
   node.reach[0] = box.reach = 0.35F;
-  box.center[2] = 0.41F;
   const std::array<std::array<float, 3>, 3> turn = {{{0, -0.1F, 0}, {0.1F, 0, 0}, {}}},
                                             spread = {{{0, 0.02F, 0}, {-0.02F, 0, 0}, {}}};
   NearBoxes found;
