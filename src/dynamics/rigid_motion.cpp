@@ -9,10 +9,12 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kAnglePerSubstep = 0.1;  // [rad]
-constexpr double kAnglePerTime = 1.0;     // [rad], so that the shorter rotation between two poses is the true one
-constexpr double kMaxAngle = 1e4;         // [rad] per step
-constexpr double kMaxDistance = 1e9;      // [m]
+constexpr double kAnglePerSubstep = 0.2;                                                // [rad]
+constexpr double kSuzuki = 0.41449077179437573;                                         // 1 / (4 − ∛4)
+constexpr double kParts[] = {kSuzuki, kSuzuki, 1.0 - 4.0 * kSuzuki, kSuzuki, kSuzuki};  // of a substep
+constexpr double kAnglePerTime = 1.0;  // [rad], so that the shorter rotation between two poses is the true one
+constexpr double kMaxAngle = 1e4;      // [rad] per step
+constexpr double kMaxDistance = 1e9;   // [m]
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d S;
@@ -24,18 +26,22 @@ Matrix3d orthonormal(const Matrix3d& R) {
   return Quaterniond(R).normalized().toRotationMatrix();
 }
 
-/// Midpoint spin Ω of 2 I (Ω − Ω₀) = h IΩ × Ω, by Newton's method.
-Vector3d midpointSpin(const Matrix3d& inertia, const Vector3d& spin, double h) {
+/// One conserving step, of which the midpoint spin Ω solves 2 I (Ω − Ω₀) = h' IΩ × Ω, by Newton's method. Cayley's
+/// rotation by h'Ω is one about Ω by 2 atan(h'|Ω|/2), so h' = 2 tan(h|Ω|/2) / |Ω| makes it h|Ω|.
+void conservingStep(const Matrix3d& inertia, double h, Matrix3d& R_OB, Vector3d& spin) {
   Vector3d middle = spin;
   for (int i = 0; i < 10; ++i) {
+    const double speed = middle.norm(), scaled = 2.0 * std::tan(0.5 * h * speed) / speed;
     const Vector3d L = inertia * middle;
-    const Vector3d residual = 2.0 * inertia * (middle - spin) - h * L.cross(middle);
-    const Matrix3d slope = 2.0 * inertia - h * (skew(L) - skew(middle) * inertia);
+    const Vector3d residual = 2.0 * inertia * (middle - spin) - scaled * L.cross(middle);
+    const Matrix3d slope = 2.0 * inertia - scaled * (skew(L) - skew(middle) * inertia);
     const Vector3d change = slope.partialPivLu().solve(residual);
     middle -= change;
     if (change.norm() <= 1e-15 * spin.norm()) break;
   }
-  return middle;
+  const double speed = middle.norm();
+  R_OB = R_OB * Eigen::AngleAxisd(h * speed, middle / speed).toRotationMatrix();
+  spin = 2.0 * middle - spin;
 }
 
 void requireBounded(const RigidBody& body, const BodyState& state, const Vector3d& velocity, double duration,
@@ -69,11 +75,7 @@ void rotateFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Ve
   const int substeps = std::max(1, int(std::ceil(speed * duration / kAnglePerSubstep)));
   const double h = duration / substeps;
   for (int i = 0; i < substeps; ++i) {
-    const Vector3d middle = midpointSpin(inertia_B, spin_B, h);
-    // cay(hΩ): the quaternion (1, hΩ/2), normalised.
-    const Vector3d half = 0.5 * h * middle;
-    R_OB = R_OB * Quaterniond(1.0, half.x(), half.y(), half.z()).normalized().toRotationMatrix();
-    spin_B = 2.0 * middle - spin_B;
+    for (const double part : kParts) conservingStep(inertia_B, part * h, R_OB, spin_B);
   }
   R_OB = orthonormal(R_OB);
 }

@@ -6,11 +6,14 @@
 
 namespace sdf_ccd {
 
-/// Rotates a body without forces by the implicit midpoint rule with Cayley's rotation, in substeps of at most a tenth
-/// of a radian: energy and angular momentum (in O) are conserved, to rounding, at any spin.
+/// Rotates a body without forces by the implicit midpoint rule with Cayley's rotation: energy and angular momentum (in
+/// O) are conserved, to rounding, at any spin. The rule's step is lengthened until each midpoint spin rotates the body
+/// by its own angle, so a constant spin (of a sphere, about a principal axis) is exact, and one near it nearly so.
+/// Substeps of at most 0.2 rad, each of five steps in Suzuki's proportions, are of fourth order: tops of several
+/// shapes are within 5e-5 rad of the truth after 100 rad.
 ///
-/// Source: Simo & Wong 1991, Int. J. Numer. Meth. Eng. 31, the conserving algorithm for SO(3).
-/// A body with constant spin (a sphere, a spin about a principal axis) rotates exactly.
+/// Source: Simo & Wong 1991, Int. J. Numer. Meth. Eng. 31, the conserving algorithm for SO(3); Suzuki 1990, Phys. Lett.
+/// A 146, the proportions.
 void rotateFreely(const Matrix3d& inertia_B, double duration, Matrix3d& R_OB, Vector3d& spin_B);
 
 /// Poses of all bodies during a step: at its start, its end, and at times between so that no body rotates by more than

@@ -34,16 +34,38 @@ TEST(RigidMotion, SpinAboutAPrincipalAxisIsExact) {
   EXPECT_EQ(spin, Vector3d(0, 0, 7.0));
 }
 
-TEST(RigidMotion, DiscPrecessesAtItsClosedFormRate) {
-  // I = (A, A, C): the symmetry axis precesses about L at |L| / A.
-  const Matrix3d disc = Vector3d(1.0, 1.0, 2.0).asDiagonal();
-  Matrix3d R = Matrix3d::Identity();
-  Vector3d spin(0.3, 0.0, 4.0);
-  const Vector3d L = disc * spin;
-  const double T = 1.7;
-  const Vector3d expected = Eigen::AngleAxisd(L.norm() * T, L.normalized()) * Vector3d::UnitZ();
-  rotateFreely(disc, T, R, spin);
-  EXPECT_LT((R.col(2) - expected).norm(), 2e-3);  // second order in the 0.1 rad of a substep
+/// Angle between two rotations [rad].
+double angleBetween(const Matrix3d& R, const Matrix3d& S) {
+  return Eigen::AngleAxisd(R.transpose() * S).angle();
+}
+
+TEST(RigidMotion, SpinNearAPrincipalAxisIsNearlyExact) {
+  // A tilt of 1e-13 about the axes of the least and of the greatest moment stays as small.
+  for (const int k : {0, 2}) {
+    const Vector3d axis = Vector3d::Unit(k);
+    Matrix3d R = Matrix3d::Identity();
+    Vector3d spin = 1000.0 * axis + Vector3d::Constant(1e-10);
+    rotateFreely(kUneven, 1.0, R, spin);
+    EXPECT_LT(angleBetween(R, Eigen::AngleAxisd(1000.0, axis).toRotationMatrix()), 1e-9);
+  }
+}
+
+TEST(RigidMotion, DiscRotatesByItsClosedForm) {
+  // I = (A, A, C): about L at |L| / A, after a rotation about its own axis at (1 − C / A) ω₃.
+  for (const double C : {0.02, 0.9, 2.0}) {
+    const Matrix3d disc = Vector3d(1.0, 1.0, C).asDiagonal();
+    for (const Vector3d& start : {Vector3d(0.3, 0.0, 4.0), Vector3d(2.0, 2.0, 2.0), Vector3d(4.0, 0.1, -0.2)}) {
+      Matrix3d R = Matrix3d::Identity();
+      Vector3d spin = start;
+      const Vector3d L = disc * spin;
+      const double T = 25.0;
+      const Matrix3d expected = (Eigen::AngleAxisd(L.norm() * T, L.normalized()) *
+                                 Eigen::AngleAxisd((1.0 - C) * start.z() * T, Vector3d::UnitZ()))
+                                    .toRotationMatrix();
+      rotateFreely(disc, T, R, spin);
+      EXPECT_LT(angleBetween(R, expected), 5e-5) << C << " " << start.transpose();
+    }
+  }
 }
 
 TEST(RigidMotion, FastSpinsAreCutSoThatNoPieceTurnsMoreThanARadian) {
