@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/role_weight.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -21,12 +23,15 @@ ContactSearch::ContactSearch(const RigidWorld& world) : world_(world) {
   const auto canTest = [&](int shell, int field) {
     return world.bodies[shell].shape->shell.size() > 0 && world.bodies[field].shape->field.has_value();
   };
+  const auto spacing = [&](int body) { return world.bodies[body].shape->shell.covering_radius; };
   for (int a = 0; a < count; ++a) {
     for (int b = a + 1; b < count; ++b) {
       if (world.bodies[a].fixed && world.bodies[b].fixed) continue;
-      const bool both = canTest(a, b) && canTest(b, a);
-      if (canTest(a, b)) roles_.push_back({a, b, both ? 0.5 : 1.0});
-      if (canTest(b, a)) roles_.push_back({b, a, both ? 0.5 : 1.0});
+      const double finest = std::min(spacing(a), spacing(b));
+      const double weight_a = canTest(a, b) ? roleWeight(spacing(a), finest) : 0.0;
+      const double weight_b = canTest(b, a) ? roleWeight(spacing(b), finest) : 0.0;
+      if (weight_a > 0.0) roles_.push_back({a, b, weight_a / (weight_a + weight_b)});
+      if (weight_b > 0.0) roles_.push_back({b, a, weight_b / (weight_a + weight_b)});
     }
   }
 }

@@ -12,7 +12,7 @@ namespace sdf_ccd {
 struct RoleHits {
   int shell_body;
   int field_body;
-  double weight;          ///< ½ if the other role finds the same contact too (design §3.7)
+  double weight;          ///< share of the role's impulse where the other role finds the same contact: roleWeight()
   double tolerance;       ///< of the path's chords [m]
   const ChordPath& path;  ///< X_FP
   const std::vector<ShellHit>& hits;

@@ -11,7 +11,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::uint64_t kMaxReason = 1000;            // bytes
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // elements; memory grows only with the data received
+constexpr std::size_t kReadSize = std::size_t{1} << 16;  // elements; memory grows only with the data received
 
 /// Replaces control and non-ASCII characters, so that text from a hostile file is safe for log and terminal.
 std::string printable(std::string text) {
@@ -63,7 +63,7 @@ class AnswerReader {
     static_assert(sizeof(Element) == 3 * sizeof(typename Element::Scalar), "no padding");
     while (elements.size() < count) {
       const std::size_t have = elements.size();
-      elements.resize(have + std::min<std::size_t>(kChunk, count - have));
+      elements.resize(have + std::min<std::size_t>(kReadSize, count - have));
       take(reinterpret_cast<char*>(elements.data() + have), (elements.size() - have) * sizeof(Element));
     }
   }

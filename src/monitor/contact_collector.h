@@ -24,7 +24,7 @@ class ContactCollector {
 
   /// Adds the contacts of one role; PairRole::cut() must have been called.
   /// @param shell_is_a  the shell's body is the pair's body A.
-  /// @param weight      of the role's impulse; ½ if the other role sees the same contact too (design §3.7).
+  /// @param weight      share of the role's impulse where the other role finds the same contact: roleWeight().
   void add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings, const ContactOptions& options,
            bool with_impulse);
 

@@ -1,9 +1,9 @@
 #include "pair_roles.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/infinity.h"
+#include "contact/role_weight.h"
 
 namespace sdf_ccd {
 
@@ -78,15 +78,8 @@ bool PairRoles::isOutsideAtEnd(int body) const {
   return role != roles_.end() && role->isOutsideAtEnd();
 }
 
-/// Relative weight of a role's impulse among the roles of its pair (design §3.7): equal, except for shells whose
-/// spacing is more than three times the finest. The error of a wrench comes from how few points touch, so such points
-/// count ever less, by the square of their number per area; without a jump, so that nearly equal bodies give nearly
-/// equal forces.
 double PairRoles::forceWeight(const PairRole& role) const {
-  constexpr double kAlike = 3.0;  // within which spacings by the sizes of elements mostly are
-  if (!role.bearsForce()) return 0.0;
-  const double coarser = role.shell().covering_radius / (kAlike * finest_spacing_);
-  return coarser <= 1.0 ? 1.0 : std::pow(coarser, -4.0);
+  return role.bearsForce() ? roleWeight(role.shell().covering_radius, finest_spacing_) : 0.0;
 }
 
 void PairRoles::addContacts(const std::vector<ContactCollector::Siblings>& siblings, const ContactOptions& options,

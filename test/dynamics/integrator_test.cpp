@@ -73,6 +73,24 @@ TEST(Integrator, SphereRestsAtItsAnalyticDepth) {
   }
 }
 
+TEST(Integrator, SphereOnABoxOfFewPointsRestsAtItsAnalyticDepth) {
+  // No point of the box is near the contact: with equal weights it would be half as stiff.
+  const double R = 0.1, k = 1e8;
+  const RigidBody ball = primitiveBody("ball", Sphere{R}, 1000.0, 0.002);
+  RigidBody table = primitiveBody("table", Box{{0.5, 0.5, 0.1}}, 1000.0, 0.08);
+  table.fixed = true;
+  RigidWorld world;
+  world.bodies = {table, ball};
+  world.contact.stiffness = k;
+  world.contact.damping = 2e5;
+  const double depth = std::sqrt(ball.mass * 9.81 / (kPi * k * R));
+  for (const Scheme scheme : kSchemes) {
+    Simulation simulation(world, {at(Vector3d::Zero()), at({0.02, 0.01, 0.1 + R - depth})}, scheme, 2e-4);
+    for (int i = 0; i < 2000; ++i) simulation.advance();
+    EXPECT_NEAR(simulation.states()[1].X_OB.translation().z(), 0.1 + R - depth, 0.02 * depth) << toString(scheme);
+  }
+}
+
 TEST(Integrator, FreeFallIsExactForOursAndFirstOrderForTheOthers) {
   RigidWorld world;
   world.bodies = {pointBody("point", 2.0)};
