@@ -18,13 +18,10 @@ AlignedBox3d boxOf(const TriangleMesh& mesh, const Vector3i& triangle) {
   return box;
 }
 
-/// From blue at 0 through green to red at 1, as viewers of OctoMaps colour heights, but paler than any verdict.
+/// From dark at 0 to light at 1: colours are left to the verdicts.
 std_msgs::ColorRGBA heightColor(double share) {
-  const auto channel = [&](double middle) {
-    const double rise = std::clamp(1.5 - std::abs(4.0 * share - middle), 0.0, 1.0);
-    return static_cast<float>(0.35 + 0.35 * rise);
-  };
-  return toColor(channel(3.0), channel(2.0), channel(1.0), 1.0F);
+  const auto grey = static_cast<float>(0.25 + 0.5 * share);
+  return toColor(grey, grey, grey, 1.0F);
 }
 
 void setVoxels(const TriangleMesh& surface, Marker& marker) {

@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 
 /// Markers of the world's objects as they are checked; of a voxel map, the occupied voxels that have a free neighbour,
-/// coloured by height.
+/// darker the lower they are.
 visualization_msgs::MarkerArray toWorldMarkers(const SceneDescription& scene);
 
 /// Centres of the voxels at the surface of a map (see loadOctomapSurface()), each once.
