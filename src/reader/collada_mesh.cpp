@@ -58,7 +58,7 @@ std::vector<Vector3d> positionsOf(const XMLElement& source) {
   std::vector<Vector3d> positions;
   for (std::uint64_t i = 0; i < count; ++i) {
     const double* p = numbers.data() + offset + i * stride;
-    positions.push_back(vertexOf(p[offsets[0]], p[offsets[1]], p[offsets[2]]));
+    positions.emplace_back(p[offsets[0]], p[offsets[1]], p[offsets[2]]);
   }
   return positions;
 }

@@ -19,7 +19,7 @@ Vector3d vertexOn(std::string_view words, std::size_t line) {
   while (const std::optional<double> number = takeNumber(words)) numbers.push_back(*number);
   if (numbers.size() < 3) fail(line, "a vertex of " + std::to_string(numbers.size()) + " coordinates");
   const double weight = numbers.size() == 4 && numbers[3] != 0.0 ? numbers[3] : 1.0;
-  return vertexOf(numbers[0] / weight, numbers[1] / weight, numbers[2] / weight);
+  return {numbers[0] / weight, numbers[1] / weight, numbers[2] / weight};
 }
 
 /// Index from 0 of the vertex in `v`, `v/vt`, `v//vn` or `v/vt/vn`. The file counts from 1, or backwards from the

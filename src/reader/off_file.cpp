@@ -61,7 +61,7 @@ Vector3d takeVertex(std::string_view line, const Counts& counts, std::uint64_t i
     if (!number) failTruncated("vertex", counts.vertices, index);
     coordinate = *number;
   }
-  return vertexOf(p.x(), p.y(), p.z());
+  return p;
 }
 
 /// Parses the number of corners and the index of each; a colour may follow on the line. @return false if it is invalid.

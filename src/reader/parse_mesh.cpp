@@ -1,5 +1,6 @@
 #include "parse_mesh.h"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "mesh_formats.h"
@@ -16,13 +17,35 @@ TriangleMesh parse(const std::string& bytes, const std::string& format) {
   throw std::runtime_error("a mesh of format \"" + format + "\" is not read; STL, OBJ, OFF, PLY and DAE are");
 }
 
+/// Welds vertices that are equal up to the last digits of a float in a mesh of this size, as corners are that were
+/// printed or computed apart: the first of them stays. Others keep all of their digits, wherever the mesh is.
+TriangleMesh weldedUpToDigits(const TriangleMesh& mesh) {
+  constexpr double kDigits = 0x1p-24;
+  AlignedBox3d box;
+  for (const Vector3d& p : mesh.vertices) box.extend(p);
+  const double step = kDigits * box.sizes().maxCoeff();
+  if (!(step > 0.0 && std::isfinite(step))) return welded(mesh);  // validate() tells what is not finite
+  TriangleMesh snapped = mesh;
+  for (Vector3d& p : snapped.vertices) p = ((p - box.min()) / step).array().round();
+  TriangleMesh result = welded(snapped);
+  std::size_t kept = result.triangles.size();
+  for (auto t = mesh.triangles.rbegin(); t != mesh.triangles.rend(); ++t) {
+    const auto &a = snapped.vertices[(*t)[0]], &b = snapped.vertices[(*t)[1]], &c = snapped.vertices[(*t)[2]];
+    if (a == b || b == c || c == a) continue;  // left out by welded()
+    const Vector3i& corners = result.triangles[--kept];
+    for (int k = 0; k < 3; ++k)
+      result.vertices[corners[k]] = mesh.vertices[(*t)[k]] + Vector3d::Zero();  // -0 becomes +0
+  }
+  return result;
+}
+
 }  // namespace
 
 TriangleMesh parseMeshUnconfined(const std::string& bytes, const std::string& format) {
   constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before a text
   if (bytes.empty()) throw std::runtime_error("empty");
   const bool has_mark = bytes.rfind(kByteOrderMark, 0) == 0;
-  TriangleMesh mesh = welded(has_mark ? parse(bytes.substr(3), format) : parse(bytes, format));
+  TriangleMesh mesh = weldedUpToDigits(has_mark ? parse(bytes.substr(3), format) : parse(bytes, format));
   validate(mesh);
   return mesh;
 }

@@ -139,7 +139,7 @@ TriangleMesh parsePly(const std::string& bytes) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       if (!reader.read()) failTruncated(element.name, element.count, i);
       if (element.name == "vertex") {
-        mesh.vertices.push_back(vertexOf(reader.point.x(), reader.point.y(), reader.point.z()));
+        mesh.vertices.push_back(reader.point);
       } else if (element.name == "face") {
         faces.add(reader.corners);
       } else if (element.name == "tristrips") {

@@ -24,10 +24,4 @@ class PolygonList {
   std::vector<std::size_t> ends_;
 };
 
-/// A vertex of a text file, rounded to float as rviz does, so that corners that differ only in a double's last digits
-/// become equal and are welded.
-inline Vector3d vertexOf(double x, double y, double z) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
-}
-
 }  // namespace sdf_ccd

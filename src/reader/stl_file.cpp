@@ -68,7 +68,7 @@ TriangleMesh parseText(const std::string& bytes) {
         coordinate = *number;
       }
       corners.push_back(static_cast<std::int64_t>(mesh.vertices.size()));
-      mesh.vertices.push_back(vertexOf(p[0], p[1], p[2]));
+      mesh.vertices.emplace_back(p[0], p[1], p[2]);
     }
     if (!isWord(word, "endfacet")) continue;
     if (corners.size() < 3)

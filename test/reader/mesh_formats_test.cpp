@@ -1,4 +1,5 @@
 // Features of the formats that test/import/mesh_file_test.cpp does not cover.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "oracle/failure.h"
@@ -50,6 +51,39 @@ TEST(MeshFormats, PlyInEitherByteOrderWithOtherElementsBetween) {
   const TriangleMesh box = test::boxMesh({1, 2, 3});
   for (const bool is_big : {false, true}) {
     EXPECT_NEAR(signedVolume(parseMeshUnconfined(test::binaryPly(box, is_big), "ply")), kVolume, 1e-9);
+  }
+}
+
+/// An OFF file of the unit cube, each face of which has corners of its own, moved by up to `noise` and by `offset`.
+std::string cubeOfFaces(const Vector3d& offset, double noise) {
+  const TriangleMesh cube = test::boxMesh(Vector3d::Constant(0.5));
+  std::string text = "OFF\n" + std::to_string(3 * cube.triangles.size()) + " 12 0\n", faces;
+  int corners = 0;
+  for (const Vector3i& t : cube.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d p = cube.vertices[t[k]] + offset + noise * Vector3d(corners % 2, corners % 3, corners % 5);
+      text += fmt::format("{:.17g} {:.17g} {:.17g}\n", p.x(), p.y(), p.z());
+      faces += (k == 0 ? "3 " : " ") + std::to_string(corners++);
+    }
+    faces += "\n";
+  }
+  return text + faces;
+}
+
+TEST(MeshFormats, CornersThatDifferInTheirLastDigitsAreWelded) {
+  const TriangleMesh mesh = parseMeshUnconfined(cubeOfFaces(Vector3d::Constant(0.3), 1e-12), "off");
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_TRUE(isClosed(mesh));
+}
+
+TEST(MeshFormats, CoordinatesKeepAllDigitsFarFromTheOrigin) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d offset = 4.5e6 * Vector3d::Unit(axis);
+    const TriangleMesh mesh = parseMeshUnconfined(cubeOfFaces(offset, 0.0), "off");
+    const AlignedBox3d box = boundingBox(mesh);
+    EXPECT_EQ(box.min(), Vector3d(offset - Vector3d::Constant(0.5))) << axis;
+    EXPECT_EQ(box.max(), Vector3d(offset + Vector3d::Constant(0.5))) << axis;
+    EXPECT_TRUE(isClosed(mesh));
   }
 }
 

@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 
 /// Reads a mesh: STL (binary also when it begins with `solid`; text), OBJ, OFF, PLY and DAE, by the name's ending.
-/// Polygons are triangulated, lines and points ignored; vertices at the same position are welded.
+/// Polygons are triangulated, lines and points ignored; vertices equal up to 2^-24 of the longest side are welded.
 ///
 /// Each mesh is read in a process of its own, by the program sdf_ccd_read, so that a file that makes the reader crash,
 /// hang or exhaust memory only causes an error here. The process has no access to files or the network, at most 512 MiB
