@@ -239,7 +239,7 @@ bool hasMesh(const BodyDescription& body) {
 
 std::string whyNoShell(const BodyDescription& body) {
   for (const GeometryDescription& geometry : body.geometry) {
-    if (geometry.watertight_voxels) return "a voxel map is only a field";
+    if (geometry.watertight_voxels) return "a voxel map has none";
     if (isHalfSpace(geometry)) return "a half-space has no bounded surface";
   }
   return {};

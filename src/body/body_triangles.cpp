@@ -7,11 +7,14 @@
 #include "body/body_builder.h"
 #include "geometry/box_tree_ray.h"
 #include "geometry/mesh_edges.h"
+#include "geometry/voxel_rectangles.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 500'000;
+constexpr std::size_t kMaxOfVoxels = 4 * kMaxTriangles;       // of which a third is left when faces are joined
+constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;  // in the box around the occupied ones: 256 MB
 
 /// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
 /// which would need more than 3,500 sides.
@@ -48,8 +51,16 @@ class Collector {
   }
 
   void add(const TriangleMesh& mesh, const Isometry3d& X_BG) {
+    addTriangles(mesh, X_BG);
+    addComponents(mesh, X_BG);
+  }
+
+  void addTriangles(const TriangleMesh& mesh, const Isometry3d& X_BG) {
     for (const Vector3i& t : mesh.triangles)
       triangles.push_back({{X_BG * mesh.vertices[t[0]], X_BG * mesh.vertices[t[1]], X_BG * mesh.vertices[t[2]]}, 0.0});
+  }
+
+  void addComponents(const TriangleMesh& mesh, const Isometry3d& X_BG) {
     const std::vector<std::int32_t> component = componentOfVertices(mesh);
     std::map<std::int32_t, std::vector<Vector3d>> points;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -81,8 +92,9 @@ std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& descri
 std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& description, MeshPool& pool) {
   Collector all;
   double deviation = 0.0;
+  std::vector<BodyTriangles::Voxels> voxels;
   for (const GeometryDescription& geometry : description.geometry) {
-    if (geometry.watertight_voxels || isHalfSpace(geometry)) return nullptr;
+    if (isHalfSpace(geometry)) return nullptr;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (const auto* ball = std::get_if<Sphere>(primitive)) {
         all.add(*ball, geometry.X_BG);
@@ -92,11 +104,19 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
         if (cylinder) deviation = std::max(deviation, fine);
         all.add(tessellate(*primitive, fine), geometry.X_BG);
       }
+    } else if (const TriangleMesh& mesh = pool.find(geometry).mesh; geometry.watertight_voxels) {
+      const std::shared_ptr<const VoxelSolid> solid = VoxelSolid::of(mesh, kMaxVoxels);
+      if (!solid) return nullptr;
+      deviation = std::max(deviation, solid->moved());
+      all.addTriangles(boundaryRectangles(*solid), geometry.X_BG);
+      all.addComponents(mesh, geometry.X_BG);
+      const int element = all.elements.empty() ? 0 : all.elements.back() + 1;
+      voxels.push_back({element, geometry.X_BG.inverse(), solid});
     } else {
-      all.add(pool.find(geometry).mesh, geometry.X_BG);
+      all.add(mesh, geometry.X_BG);
     }
     all.endElement();
-    if (all.triangles.size() > kMaxTriangles) return nullptr;
+    if (voxels.empty() && all.triangles.size() > kMaxTriangles) return nullptr;
   }
   if (all.triangles.empty()) return nullptr;
   std::vector<int> order;
@@ -105,15 +125,17 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   if (made->elements > 1)
     for (const int i : order) made->element.push_back(all.elements[static_cast<std::size_t>(i)]);
   made->deviation = deviation;
+  made->voxels = std::move(voxels);
   const std::size_t open = all.triangles.size();
   for (const GeometryDescription& geometry : description.geometry) {
-    if (std::holds_alternative<Primitive>(geometry.shape)) continue;
+    if (std::holds_alternative<Primitive>(geometry.shape) || geometry.watertight_voxels) continue;
     PooledMesh& pooled = pool.find(geometry);
     // For a mesh that is not closed, the boundary of the solid is the whole mesh, and closed with the caps.
     if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
   }
   made->components = std::move(all.components);
-  if (pool.exactDepths() && all.triangles.size() == open) made->solids = solidsOf(description, pool);
+  if (pool.exactDepths() && made->voxels.empty() && all.triangles.size() == open)
+    made->solids = solidsOf(description, pool);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
   return made;
 }
@@ -121,7 +143,14 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
 }  // namespace
 
 bool BodyTriangles::isOutside(const Vector3d& p) const {
+  std::size_t next = 0;  // of `voxels`
   for (int k = 0; k < elements; ++k) {
+    if (next < voxels.size() && voxels[next].element == k) {
+      const Voxels& of_map = voxels[next++];
+      const double rounding = 1e-14 * (p.norm() + of_map.solid->box().max().norm() + of_map.solid->origin().norm());
+      if (of_map.solid->touches(of_map.X_GB * p, of_map.solid->moved() + rounding)) return false;
+      continue;
+    }
     const auto belongs = [this, k](int i) { return elements == 1 || element[static_cast<std::size_t>(i)] == k; };
     const std::optional<int> winding = windingNumber(tree, p, belongs);
     if (!winding || *winding != 0) return false;
@@ -130,17 +159,18 @@ bool BodyTriangles::isOutside(const Vector3d& p) const {
 }
 
 bool mayHaveTriangles(const BodyDescription& description) {
-  if (!whyNoShell(description).empty()) return false;
-  std::size_t count = 0;
+  std::size_t count = 0, of_voxels = 0;
   for (const GeometryDescription& geometry : description.geometry) {
+    if (isHalfSpace(geometry)) return false;
     if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape))
-      count += *mesh ? (*mesh)->triangles.size() : 0;
+      (geometry.watertight_voxels ? of_voxels : count) += *mesh ? (*mesh)->triangles.size() : 0;
   }
-  return count <= kMaxTriangles;
+  return count <= kMaxTriangles && of_voxels <= kMaxOfVoxels;
 }
 
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
   WeakStore<BodyTriangles>& shared = pool.content().triangles;
+  if (!mayHaveTriangles(description)) return nullptr;
   const std::string key = pool.keys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
   if (auto known = shared.find(key)) return known;
   auto made = ownTrianglesOf(description, pool);

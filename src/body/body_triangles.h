@@ -5,12 +5,13 @@
 
 #include "body/mesh_pool.h"
 #include "geometry/box_tree.h"
+#include "geometry/voxel_solid.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
 
 /// Triangles of a body, frame B, which decide contact. Meshes are as drawn, open where those are open; spheres are
-/// exact, cylinders tessellated.
+/// exact, cylinders tessellated; the faces of voxels are joined to rectangles.
 struct BodyTriangles {
   explicit BodyTriangles(BoxTree triangles) : tree(std::move(triangles)) {}
 
@@ -18,7 +19,14 @@ struct BodyTriangles {
   std::unique_ptr<const BoxTree> closed;  ///< with caps in all openings (see findOpenings()); null without any
   std::vector<int> element;               ///< per triangle of `tree`; empty if there is only one element
   int elements = 1;                       ///< their number
-  double deviation = 0.0;                 ///< of the triangles from the surface, of cylinders [m]
+  double deviation = 0.0;                 ///< of the triangles from the surface, of cylinders and voxels [m]
+
+  struct Voxels {
+    int element;
+    Isometry3d X_GB;  ///< G: the mesh's frame
+    std::shared_ptr<const VoxelSolid> solid;
+  };
+  std::vector<Voxels> voxels;  ///< the elements that are voxels
 
   /// For each component of the surface, with caps (connected by shared vertices): its extreme vertices in some
   /// directions. If one is outside a solid whose surface the component does not meet, the whole component is.
@@ -35,11 +43,11 @@ struct BodyTriangles {
   bool isOutside(const Vector3d& p) const;
 };
 
-/// Whether trianglesOf() gives any: not if the body has half-spaces or voxels, or more than half a million triangles.
+/// Whether trianglesOf() gives any: not if the body has half-spaces, more than half a million triangles, or voxels with
+/// more than a million faces.
 bool mayHaveTriangles(const BodyDescription& description);
 
-/// Null if triangles are not the whole body (half-spaces and voxels), or are too many, more than half a
-/// million.
+/// Null if triangles are not the whole body (half-spaces), are too many, or are said to be whole voxels but are not.
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool);
 
 }  // namespace sdf_ccd

@@ -90,6 +90,19 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   return double(mesh.triangles.size()) == 2.0 * solid->faces() ? solid : nullptr;
 }
 
+bool VoxelSolid::touches(const Vector3d& p, double slack) const {
+  const AlignedBox3d within = box();
+  const Vector3d around = Vector3d::Constant(slack), nearest = p.cwiseMax(within.min()).cwiseMin(within.max());
+  if (!((p - nearest).lpNorm<Eigen::Infinity>() <= slack)) return false;
+  const Vector3i low = ((nearest - around - origin_) / size_).array().floor().cast<int>();
+  const Vector3i high = ((nearest + around - origin_) / size_).array().floor().cast<int>();
+  for (int z = low.z(); z <= high.z(); ++z)
+    for (int y = low.y(); y <= high.y(); ++y)
+      for (int x = low.x(); x <= high.x(); ++x)
+        if (isIn(x, y, z)) return true;
+  return false;
+}
+
 void VoxelSolid::runs(int y, int z, std::vector<Run>& found) const {
   found.clear();
   if (y < 0 || z < 0 || y >= count_.y() || z >= count_.z()) return;

@@ -29,6 +29,9 @@ class VoxelSolid {
     return (row(y, z)[x / 64] >> (x % 64) & 1) != 0;
   }
 
+  /// Whether an occupied voxel is within `slack` [m] of a point along each axis; the point in the mesh's frame.
+  bool touches(const Vector3d& p, double slack) const;
+
   /// Occupied voxels [begin, end) along a row. runs() lists them in order; none for rows outside the box.
   struct Run {
     int begin, end;

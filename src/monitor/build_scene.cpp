@@ -48,7 +48,7 @@ class Pace {
 /// Makes triangles of the bodies that are in a pair with another one that can have them.
 void makeTriangles(const SceneDescription& description, const std::vector<PlannedPair>& pairs, MeshPool& pool,
                    std::vector<Body>& bodies) {
-  const auto possible = [&](int i) { return bodies[i].failure.empty() && whyNoShell(description.bodies[i]).empty(); };
+  const auto possible = [&](int i) { return bodies[i].failure.empty() && mayHaveTriangles(description.bodies[i]); };
   std::vector<char> wanted(bodies.size(), 0);
   for (const PlannedPair& pair : pairs)
     if (possible(pair.body_a) && possible(pair.body_b)) wanted[pair.body_a] = wanted[pair.body_b] = 1;

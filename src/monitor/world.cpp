@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "body/body_place.h"
+#include "body/body_triangles.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
@@ -119,7 +120,7 @@ std::vector<PreparedNeeds> WorldEditor::Impl::needsOf(const SceneDescription& de
     needs[b].of_body = {plan.needs_field[b], plan.needs_shell[b], plan.edges_only[b], decides[b] != 0,
                         plan.needs_witnesses[b]};
     const BodyDescription& body = description.bodies[b];
-    can_be_triangles.push_back(body.failure.empty() && whyNoShell(body).empty());
+    can_be_triangles.push_back(body.failure.empty() && mayHaveTriangles(body));
   }
   for (const PlannedPair& pair : plan.pairs) {
     const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);

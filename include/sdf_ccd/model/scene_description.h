@@ -17,7 +17,7 @@ struct GeometryDescription {
   std::variant<Primitive, std::shared_ptr<const TriangleMesh>> shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< its frame G in the body's frame B
   std::string source;                        ///< for display: "box" or the mesh's URI
-  bool watertight_voxels = false;            ///< boundary of whole voxels: has only a field, no shell
+  bool watertight_voxels = false;            ///< boundary of whole voxels: has no shell
   std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: that of BodyOptions::field
   std::optional<Vector3d> scale = {};        ///< of the mesh in the file `source`; none if that file has another name
 };

@@ -103,7 +103,9 @@ int lineCount(const std::string& text) {
 std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age) {
   std::string text = headline(states, result, cycle);
   if (result.checked + result.skipped > 0) {
-    text += fmt::format("\nerror bound {}, {:.2f} s ago", lengthText(result.error_bound), std::max(0.0, age));
+    constexpr double kLeast = 1e-6;  // [m], of what is shown
+    const std::string bound = lengthText(std::max(kLeast, result.error_bound));
+    text += fmt::format("\nerror bound {}, {:.2f} s ago", bound, std::max(0.0, age));
   }
   const std::string unchecked = uncheckedPairs(states, result, cycle);
   return unchecked.empty() ? text : text + "\n" + unchecked;

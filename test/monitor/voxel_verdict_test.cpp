@@ -1,0 +1,109 @@
+// Verdicts about voxel maps against exact distances to boxes.
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "monitor/voxel_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// Distance of the segment from the box [m]: the distance along it is convex.
+double distanceTo(const AlignedBox3d& box, const Vector3d& start, const Vector3d& end) {
+  double low = 0.0, high = 1.0;
+  const auto at = [&](double s) { return box.exteriorDistance(Vector3d(start + s * (end - start))); };
+  for (int i = 0; i < 100; ++i) {
+    const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+    (at(a) <= at(b) ? high : low) = at(a) <= at(b) ? b : a;
+  }
+  return std::min({at(0.5 * (low + high)), at(0.0), at(1.0)});
+}
+
+double distanceTo(const Voxels& voxels, const Vector3d& start, const Vector3d& end) {
+  double least = 1e9;
+  for (const auto& v : voxels) {
+    const Vector3d low = kSize * Vector3d(v[0], v[1], v[2]);
+    least = std::min(least, distanceTo({low, low + Vector3d::Constant(kSize)}, start, end));
+  }
+  return least;
+}
+
+/// The tiles of a map and a ball.
+struct BallInMap {
+  BallInMap(const Voxels& voxels, double radius) {
+    VoxelMapOptions options;
+    options.band = 2.0 * kSize;
+    VoxelMap map("map", "world", options);
+    VoxelMap::Change change = map.take(gridOf(voxels, options), {});
+    std::vector<BodyDescription> bodies = std::move(change.made);
+    bodies.insert(bodies.begin(), body("ball", Primitive(Sphere{radius})));
+    scene = build(std::move(bodies), fine(0.1 * radius));
+    monitor = std::make_unique<Monitor>(scene, MonitorOptions());
+  }
+
+  const CycleResult& move(const Vector3d& start, const Vector3d& end) {
+    CycleMotion motion;
+    motion.times = {0.0, 0.1};
+    motion.X_WB.assign(scene->bodies.size(), still(Isometry3d::Identity()));
+    motion.X_WB[0] = {translation(start), translation(end)};
+    return monitor->run(motion, {});
+  }
+
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<Monitor> monitor;
+};
+
+TEST(VoxelVerdict, ABallAmongRandomVoxelsToATenthOfAMillimetre) {
+  Random random(11);
+  int clear = 0, contact = 0, near = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    Voxels voxels;
+    const double share = uniform(random, 0.01, 0.2);
+    for (int i = 0; i < 20 * 20 * 8; ++i)
+      if (uniform(random, 0.0, 1.0) < share) voxels.insert({i % 20 - 10, i / 20 % 20 - 10, i / 400 - 4});
+    const double radius = uniform(random, 0.2, 1.2) * kSize;
+    BallInMap ball(voxels, radius);
+    for (const PlannedPair& pair : ball.scene->pairs) ASSERT_TRUE(ball.scene->bodies[pair.body_b].triangles);
+    Vector3d start(-1.0, 0.0, 0.0);
+    for (int step = 0; step < 100; ++step) {
+      Vector3d end = uniformIn(random, {Vector3d(-0.6, -0.6, -0.3), Vector3d(0.6, 0.6, 0.3)});
+      if (step % 2 == 0) end = start + 0.1 * (end - start);
+      const double gap = distanceTo(voxels, start, end) - radius;
+      const Verdict verdict = ball.move(start, end).verdict;
+      if (std::abs(gap) > 1e-4) {
+        EXPECT_EQ(verdict, gap > 0.0 ? Verdict::kClear : Verdict::kContact) << trial << " " << step << " " << gap;
+      }
+      ++(gap > 1e-4 ? clear : gap < -1e-4 ? contact : near);
+      start = end;
+    }
+  }
+  EXPECT_GT(clear, 100);
+  EXPECT_GT(contact, 100);
+}
+
+TEST(VoxelVerdict, ABallInsideABlockTouchesNoFace) {
+  Voxels voxels;
+  for (int i = 0; i < 16 * 16 * 16; ++i) voxels.insert({i % 16, i / 16 % 16, i / 256});
+  const Vector3d middle = Vector3d::Constant(8.0 * kSize);
+  BallInMap solid(voxels, 0.4 * kSize);
+  EXPECT_EQ(solid.move(middle, middle).verdict, Verdict::kContact);
+  for (int i = 0; i < 27; ++i) voxels.erase({7 + i % 3, 7 + i / 3 % 3, 7 + i / 9});
+  BallInMap hollow(voxels, 0.4 * kSize);
+  const Vector3d in_cavity = Vector3d::Constant(8.5 * kSize);
+  EXPECT_EQ(hollow.move(in_cavity, in_cavity).verdict, Verdict::kClear);
+  EXPECT_EQ(hollow.move(in_cavity, in_cavity + Vector3d(1.2 * kSize, 0, 0)).verdict, Verdict::kContact);
+}
+
+TEST(VoxelVerdict, AVoxelInsideALinkTouchesNoFace) {
+  BallInMap ball({{0, 0, 0}}, 3.0 * kSize);
+  const Vector3d beside(3.7 * kSize, 0.5 * kSize, 0.5 * kSize);
+  EXPECT_EQ(ball.move(Vector3d::Zero(), Vector3d::Zero()).verdict, Verdict::kContact);
+  EXPECT_EQ(ball.move({4.1 * kSize, 0.5 * kSize, 0.5 * kSize}, {4.1 * kSize, 0.5 * kSize, 0.5 * kSize}).verdict,
+            Verdict::kClear);
+  EXPECT_EQ(ball.move(beside, beside).verdict, Verdict::kContact);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
