@@ -4,10 +4,10 @@ namespace sdf_ccd {
 
 /// In increasing order of severity: of several pairs, the most severe verdict counts.
 enum class Verdict {
-  kClear,       ///< nowhere nearer than the error bound
+  kClear,       ///< apart at all times, even if the errors reach their bounds
   kNotChecked,  ///< could not be checked, and why
-  kUncertain,   ///< neither is proved: apart by more than the error bound, or in contact
-  kContact,     ///< somewhere deeper than the error bound
+  kUncertain,   ///< neither is proved, as the errors may be as large as their bounds
+  kContact,     ///< touching at some time, even if the errors reach their bounds
 };
 
 const char* toString(Verdict verdict);
@@ -17,8 +17,8 @@ struct ErrorBound {
   double field = 0.0;  ///< sampling, interpolation, rounding of the field
   double chord = 0.0;  ///< arcs taken as chords
   double root = 0.0;   ///< tolerance of contact times, as a length
-  double gap = 0.0;    ///< largest gap between the surface and the nearest shell point, or the triangles that stand for
-                       ///< it; where triangles leave a pair UNCERTAIN, plus the distance that they can resolve
+  double gap = 0.0;    ///< where surfaces touch: to the nearest shell point, or to the triangles that stand for a surface;
+                       ///< where triangles leave a pair UNCERTAIN, plus the distance that they can resolve
 
   /// For "no contact": the surface between the points counts, too.
   double total() const { return field + chord + root + gap; }
