@@ -153,11 +153,7 @@ class MappedRoom {
 
   std::shared_ptr<const WorldSnapshot> take(int scan) {
     VoxelMap::Change change = map_.take(room_.scan(changed_, scan, options()), {});
-    for (std::size_t i = 0; i < change.made.size(); ++i) {
-      editor_.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape),
-                      change.fields[i]);
-      tiles_[change.made[i].name] = std::move(change.made[i]);
-    }
+    for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
     for (const std::string& gone : change.removed) tiles_.erase(gone);
     SceneDescription description{links(), {}};
     for (const auto& [tile, body] : tiles_) description.bodies.push_back(body);

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "body/body_place.h"
 #include "body/body_shell.h"
+#include "body/body_triangles.h"
 #include "body/coarsen.h"
 #include "body/doubtful_surface.h"
 #include "body/element_options.h"
@@ -256,7 +256,7 @@ BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& need
                        MeshPool& pool, const Progress& progress) {
   BuiltBody built;
   Body& body = built.body;
-  setPlace(description, body);
+  static_cast<BodyPlace&>(body) = description;
   built.report.name = description.name;
   built.report.field = "left out";
   if (body.failure.empty() && needs.any()) {
@@ -298,7 +298,9 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   static_cast<void>(is_shared);
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
   const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
-  const auto& [field, shell, edges_only, decides, witnesses] = needs;
+  const auto& [field, shell, edges_only, decides, witnesses, triangles, surface] = needs;
+  static_cast<void>(triangles);  // added to the shared body, as the surface
+  static_cast<void>(surface);
   std::string key = keys.keyOf(description);
   const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
   add(cells, cell_size, field_error, band, max_bytes);
@@ -325,9 +327,11 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   }
   BuiltBody mine = *known;
   mine.body.content = known;
-  setPlace(description, mine.body);
+  static_cast<BodyPlace&>(mine.body) = description;
   mine.report.name = description.name;
   if (was_known) countAsShared(mine.report);
+  if (needs.triangles) mine.body.triangles = trianglesOf(description, pool);
+  if (needs.surface) mine.body.surface = surfaceOf(description, pool);
   return mine;
 }
 

@@ -12,17 +12,6 @@ namespace sdf_ccd {
 /// Whether its geometry is not primitives alone.
 bool hasMesh(const BodyDescription& body);
 
-/// Parts of a body to build.
-struct BodyNeeds {
-  bool field = true;
-  bool shell = true;
-  bool edges_only = false;  ///< the body is one box, and no pair needs more of its shell
-  bool decides = true;      ///< some verdict depends on the shell: large elements must have all points
-  bool witnesses = false;
-
-  bool any() const { return field || shell || witnesses; }
-};
-
 /// Why no shell can cover the body's surface; empty if one can.
 std::string whyNoShell(const BodyDescription& body);
 
@@ -36,7 +25,7 @@ struct BuiltBody {
 };
 
 /// Builds, or reads from the cache, what is needed of a body; meshes of equal content once for all bodies of a pool. If
-/// this fails, Body::failure says why. Body::surface is left out: see surfaceOf().
+/// this fails, Body::failure says why.
 ///
 /// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays
 /// valid for the union: a location q of its surface is outside the sibling, so (distances being

@@ -31,6 +31,7 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   PooledMesh pooled;
   pooled.voxels = voxels;
   pooled.cell_size = geometry.cell_size;
+  pooled.field = geometry.field;
   if (voxels) {
     validate(mesh);
     pooled.mesh = mesh;

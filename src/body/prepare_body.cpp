@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "body/body_builder.h"
-#include "body/body_triangles.h"
 
 namespace sdf_ccd {
 namespace {
@@ -34,10 +33,9 @@ Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();
   needs.witnesses = needsWitnesses(description);
+  needs.triangles = needs.surface = true;
   auto [body, report] = buildBody(description, needs, options, pool, {});
   if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
-  body.surface = surfaceOf(description, pool);
-  body.triangles = trianglesOf(description, pool);
   for (const std::string& warning : report.warnings)
     if (body.warning.find(warning) == std::string::npos) body.warning += (body.warning.empty() ? "" : "; ") + warning;
   return std::move(body);

@@ -6,7 +6,6 @@
 #include <unordered_map>
 
 #include "body/body_builder.h"
-#include "body/body_triangles.h"
 #include "common/seconds_since.h"
 #include "monitor/scene_cost.h"
 #include "scene_totals.h"
@@ -44,19 +43,6 @@ class Pace {
   std::vector<double> fields_, before_;  ///< per body: expected time for its fields, and for the bodies before it [s]
   double all_ = 0.0;
 };
-
-/// Makes triangles of the bodies that are in a pair with another one that can have them.
-void makeTriangles(const SceneDescription& description, const std::vector<PlannedPair>& pairs, MeshPool& pool,
-                   std::vector<Body>& bodies) {
-  const auto possible = [&](int i) { return bodies[i].failure.empty() && mayHaveTriangles(description.bodies[i]); };
-  std::vector<char> wanted(bodies.size(), 0);
-  for (const PlannedPair& pair : pairs)
-    if (possible(pair.body_a) && possible(pair.body_b)) wanted[pair.body_a] = wanted[pair.body_b] = 1;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    checkCancelled();
-    if (wanted[i] != 0) bodies[i].triangles = trianglesOf(description.bodies[i], pool);
-  }
-}
 
 /// Warnings that several reports share, as of a cache that cannot be used, are the scene's: once, not body by body.
 void shareWarnings(Scene& scene) {
@@ -96,17 +82,10 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress) {
   const auto start = Clock::now();
-  Scene scene;
-  scene.max_error = options.max_error;
-  scene.motion_margin = options.motion_margin;
-  scene.motion_error = options.motion_error;
-  scene.pairs = plan.pairs;
-  scene.left_out = plan.left_out;
-  scene.visual_only = description.visual_only;
+  Scene scene = plannedScene(description, plan, options);
   const std::shared_ptr<MeshPool> pool =
       plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
   const std::size_t count = description.bodies.size();
-  const std::vector<char> decides = shellsThatDecide(description, plan);
   const Pace pace(description, plan.expected.get());
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < count; ++i) {
@@ -116,9 +95,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
       if (progress) progress(described.name, pace.done(i, share));
     };
     report_progress(0.0);
-    const BodyNeeds needs{plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0,
-                          plan.needs_witnesses[i]};
-    BuiltBody built = buildBody(described, needs, options, *pool, report_progress);
+    BuiltBody built = buildBody(described, plan.needs[i], options, *pool, report_progress);
     bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
   }
@@ -128,12 +105,10 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     Body& body = bodies[i];
     if (surfaces[i] && body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
   }
-  makeTriangles(description, scene.pairs, *pool, bodies);
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
-  countPairs(scene);
-  setBounds(scene);
+  setTotals(scene);
   scene.build_seconds = secondsSince(start);
   return scene;
 }
@@ -150,9 +125,8 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) addPair(bodies, a, b, scene);
   scene.bodies = BodyList(std::move(bodies));
-  countPairs(scene);
   scene.motion_margin = scene.motion_error = motion_margin;
-  setBounds(scene);
+  setTotals(scene);
   return scene;
 }
 
@@ -169,8 +143,7 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
   }
   if (kept.size() == scene.pairs.size()) return;
   scene.pairs = std::move(kept);
-  countPairs(scene);
-  setBounds(scene);
+  setTotals(scene);
 }
 
 }  // namespace sdf_ccd

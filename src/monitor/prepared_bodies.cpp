@@ -3,55 +3,49 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "body/body_triangles.h"
-
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{64} << 20;  // limits of the unused bodies that are kept
 
-}  // namespace
-
-bool PreparedNeeds::cover(const PreparedNeeds& other) const {
-  const auto has = [](bool mine, bool wanted) { return mine || !wanted; };
-  return has(of_body.field, other.of_body.field) && has(of_body.shell, other.of_body.shell) &&
-         (!other.of_body.shell || !of_body.edges_only || other.of_body.edges_only) &&
-         (!other.of_body.shell || has(of_body.decides, other.of_body.decides)) &&
-         has(of_body.witnesses, other.of_body.witnesses) && has(triangles, other.triangles) &&
-         has(surface, other.surface);
+/// Whether a body that was prepared with these needs also has all that `wanted` requires.
+bool cover(const BodyNeeds& mine, const BodyNeeds& wanted) {
+  const auto has = [&](auto need) { return mine.*need || !(wanted.*need); };
+  return has(&BodyNeeds::field) && has(&BodyNeeds::shell) && has(&BodyNeeds::witnesses) && has(&BodyNeeds::triangles) &&
+         has(&BodyNeeds::surface) &&
+         (!wanted.shell || ((!mine.edges_only || wanted.edges_only) && has(&BodyNeeds::decides)));
 }
 
-PreparedNeeds PreparedNeeds::operator|(const PreparedNeeds& other) const {
-  PreparedNeeds all;
-  all.of_body.field = of_body.field || other.of_body.field;
-  all.of_body.shell = of_body.shell || other.of_body.shell;
-  all.of_body.witnesses = of_body.witnesses || other.of_body.witnesses;
+BodyNeeds unite(const BodyNeeds& a, const BodyNeeds& b) {
+  BodyNeeds all;
+  all.field = a.field || b.field;
+  all.shell = a.shell || b.shell;
   // Edges suffice only if everyone who needs a shell needs only its edges.
-  all.of_body.edges_only =
-      all.of_body.shell && (!of_body.shell || of_body.edges_only) && (!other.of_body.shell || other.of_body.edges_only);
-  all.of_body.decides = (of_body.shell && of_body.decides) || (other.of_body.shell && other.of_body.decides);
-  all.triangles = triangles || other.triangles;
-  all.surface = surface || other.surface;
+  all.edges_only = all.shell && (!a.shell || a.edges_only) && (!b.shell || b.edges_only);
+  all.decides = (a.shell && a.decides) || (b.shell && b.decides);
+  all.witnesses = a.witnesses || b.witnesses;
+  all.triangles = a.triangles || b.triangles;
+  all.surface = a.surface || b.surface;
   return all;
 }
 
-PreparedBody* PreparedBodies::find(const std::string& key, const PreparedNeeds& needs) {
+}  // namespace
+
+PreparedBody* PreparedBodies::find(const std::string& key, const BodyNeeds& needs) {
   const auto found = bodies_.find(key);
-  return found != bodies_.end() && found->second.needs.cover(needs) ? &found->second : nullptr;
+  return found != bodies_.end() && cover(found->second.needs, needs) ? &found->second : nullptr;
 }
 
-PreparedBody& PreparedBodies::make(const std::string& key, const BodyDescription& description,
-                                   const PreparedNeeds& needs, const BodyOptions& options, MeshPool& pool) {
+PreparedBody& PreparedBodies::make(const std::string& key, const BodyDescription& description, const BodyNeeds& needs,
+                                   const BodyOptions& options, MeshPool& pool) {
   const auto known = bodies_.find(key);
-  const PreparedNeeds all = known == bodies_.end() ? needs : known->second.needs | needs;
-  BuiltBody built = buildBody(description, all.of_body, options, pool, {});
+  const BodyNeeds all = known == bodies_.end() ? needs : unite(known->second.needs, needs);
+  const BuiltBody built = buildBody(description, all, options, pool, {});
   if (!built.body.failure.empty()) throw std::invalid_argument(description.name + ": " + built.body.failure);
-  if (all.triangles) built.body.triangles = trianglesOf(description, pool);
-  if (all.surface) built.body.surface = surfaceOf(description, pool);
   return add(key, all, built.body, built.report);
 }
 
-PreparedBody& PreparedBodies::add(const std::string& key, const PreparedNeeds& needs, const Body& body,
+PreparedBody& PreparedBodies::add(const std::string& key, const BodyNeeds& needs, const Body& body,
                                   const BodyReport& report) {
   PreparedBody& prepared = bodies_[key];
   prepared = {needs, std::make_shared<const Body>(body), report, prepared.used};

@@ -12,20 +12,9 @@
 
 namespace sdf_ccd {
 
-/// The data of a body that its pairs need.
-struct PreparedNeeds {
-  BodyNeeds of_body;
-  bool triangles = false;
-  bool surface = false;
-
-  /// Whether a body that was prepared with these needs also has all that `other` requires.
-  bool cover(const PreparedNeeds& other) const;
-  PreparedNeeds operator|(const PreparedNeeds& other) const;
-};
-
 /// A prepared body, without name and pose.
 struct PreparedBody {
-  PreparedNeeds needs;
+  BodyNeeds needs;
   std::shared_ptr<const Body> body;
   BodyReport report;
   std::uint64_t used = 0;  ///< version of the world that last used it
@@ -35,15 +24,15 @@ struct PreparedBody {
 class PreparedBodies {
  public:
   /// Null if there is none that has all of `needs`.
-  PreparedBody* find(const std::string& key, const PreparedNeeds& needs);
+  PreparedBody* find(const std::string& key, const BodyNeeds& needs);
 
   /// Prepares a body with `needs` and those of an existing body of the same geometry, which it replaces.
   /// @throws std::invalid_argument with the body's name if it cannot be made.
-  PreparedBody& make(const std::string& key, const BodyDescription& description, const PreparedNeeds& needs,
+  PreparedBody& make(const std::string& key, const BodyDescription& description, const BodyNeeds& needs,
                      const BodyOptions& options, MeshPool& pool);
 
   /// Adds a body that is prepared already.
-  PreparedBody& add(const std::string& key, const PreparedNeeds& needs, const Body& body, const BodyReport& report);
+  PreparedBody& add(const std::string& key, const BodyNeeds& needs, const Body& body, const BodyReport& report);
 
   /// Removes bodies last used before that version, except the most recent ones.
   void dropUnused(std::uint64_t version);

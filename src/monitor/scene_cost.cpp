@@ -9,7 +9,6 @@
 #include <tbb/task_arena.h>
 
 #include "body/body_builder.h"
-#include "body/body_triangles.h"
 #include "body/element_options.h"
 #include "body/mesh_pool.h"
 #include "common/number_text.h"
@@ -153,27 +152,14 @@ void SceneCost::add(const BodyCost& body) {
   bodies.push_back(body);
 }
 
-std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan) {
-  std::vector<char> decides(description.bodies.size(), 0);
-  std::vector<char> has_triangles;
-  for (const BodyDescription& body : description.bodies) has_triangles.push_back(mayHaveTriangles(body));
-  for (const PlannedPair& pair : plan.pairs) {
-    if (!has_triangles[pair.body_a]) decides[pair.body_b] = 1;
-    if (!has_triangles[pair.body_b]) decides[pair.body_a] = 1;
-  }
-  return decides;
-}
-
 SceneCost expectedCost(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options) {
-  const std::vector<char> decides = shellsThatDecide(description, plan);
   SceneCost scene;
   CostEstimate estimate(options);
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     const BodyDescription& body = description.bodies[i];
-    if (!body.failure.empty() || !(plan.needs_field[i] || plan.needs_shell[i])) continue;
+    if (!body.failure.empty() || !(plan.needs[i].field || plan.needs[i].shell)) continue;
     try {
-      scene.add(
-          estimate.of(body, {plan.needs_field[i], plan.needs_shell[i], plan.edges_only[i], decides[i] != 0, false}));
+      scene.add(estimate.of(body, plan.needs[i]));
     } catch (const std::exception&) {
       // Building the body will report the error.
     }

@@ -40,9 +40,6 @@ struct SceneCost {
   void add(const BodyCost& body);
 };
 
-/// Per body: whether a verdict depends on its shell, because the other body of a pair has no triangles.
-std::vector<char> shellsThatDecide(const SceneDescription& description, const ScenePlan& plan);
-
 /// Estimates the cost of buildScene() with the same arguments: of fields by building a sample of their cells (see
 /// expectedCost() of a field), of shells from areas and edges. Meshes of equal content count once. Bodies that
 /// buildScene() would refuse cost nothing.

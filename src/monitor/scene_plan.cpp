@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "body/body_builder.h"
+#include "body/body_triangles.h"
 #include "model/name_pair.h"
 #include "monitor/surface_needs.h"
 
@@ -81,70 +82,87 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
   return {};
 }
 
+/// A body while its pairs are planned.
+struct Planned {
+  bool is_large = false, has_pair = false, needs_faces = false, may_have_triangles = false;
+  Extent extent;
+};
+
+/// Without a shell of the large body, it would not be noticed wholly inside the small one. So it must be too long for
+/// that.
+bool isOnlyAField(const Planned& large, const Planned& small) {
+  return large.is_large && !small.is_large && large.extent.longest_side > small.extent.diagonal;
+}
+
+PlannedPair planPair(int i, int k, const SceneDescription& description, const PlanOptions& options,
+                     std::vector<Planned>& planned, std::vector<BodyNeeds>& needs) {
+  const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
+  Planned &of_a = planned[i], &of_b = planned[k];
+  const bool checkable = isPlanned(a) && isPlanned(b);
+  const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
+  const bool a_faces = a_can && !(b_can && isOnlyAField(of_a, of_b)),
+             b_faces = b_can && !(a_can && isOnlyAField(of_b, of_a));
+  const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
+  const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
+  const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
+  const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
+  if (a_witnesses) needs[i].witnesses = needs[k].field = true;
+  if (b_witnesses) needs[k].witnesses = needs[i].field = true;
+  if (checkable && of_a.may_have_triangles && of_b.may_have_triangles) needs[i].triangles = needs[k].triangles = true;
+  if (a_can && b_can && options.both_fields) needs[i].field = needs[k].field = true;
+  if (a_shell) needs[i].shell = needs[k].field = true;
+  if (b_shell) needs[k].shell = needs[i].field = true;
+  if (!of_a.may_have_triangles) needs[k].decides = true;
+  if (!of_b.may_have_triangles) needs[i].decides = true;
+  of_a.needs_faces |= a_faces;
+  of_b.needs_faces |= b_faces;
+  of_a.has_pair = of_b.has_pair = true;
+  return {i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses};
+}
+
+void listLeftOut(const BodyDescription& body, const Planned& planned, const BodyNeeds& needs,
+                 std::vector<LeftOut>& left_out) {
+  if (!body.failure.empty() || body.geometry.empty()) return;
+  std::string no_shell = whyNoShell(body);
+  if (no_shell.empty() && planned.is_large && planned.has_pair)
+    no_shell = "large; the shells of smaller bodies suffice";
+  const std::string idle = planned.has_pair ? "the others of its pairs cannot be checked" : "no pair needs it";
+  if (!needs.field) left_out.push_back({"field of " + body.name, needs.shell ? "used only as a shell" : idle});
+  if (needs.edges_only) left_out.push_back({"full-shell of " + body.name, no_shell});
+  if (!needs.shell) left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
+}
+
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
   const std::map<NamePair, std::string> allowed = allowedPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
-  plan.needs_field.assign(count, false);
-  plan.needs_shell.assign(count, false);
-  plan.needs_witnesses.assign(count, false);
-  std::vector<bool> needs_faces(count, false);
-  std::vector<bool> has_pair(count, false), is_large(count, false);
-  std::vector<Extent> extents(count);
-  for (int i = 0; i < count; ++i) {
-    if (!isPlanned(description.bodies[i])) continue;
-    plan.needs_field[i] = hidesVoxels(description, description.bodies[i]);
-    is_large[i] = isLarge(description.bodies[i], options);
-    extents[i] = extentOf(description.bodies[i]);
-  }
-  // Without a shell of the large body, it would not be noticed wholly inside the small one. So it must be too long for
-  // that.
-  const auto isOnlyAField = [&](int large, int small) {
-    return is_large[large] && !is_large[small] && extents[large].longest_side > extents[small].diagonal;
-  };
-
-  for (int i = 0; i < count; ++i) {
-    for (int k = i + 1; k < count; ++k) {
-      const BodyDescription& a = description.bodies[i];
-      const BodyDescription& b = description.bodies[k];
-      if (a.is_world && b.is_world) continue;
-      const std::string reason = whyLeftOut(a, b, allowed);
-      if (!reason.empty()) {
-        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
-        continue;
-      }
-      const bool checkable = isPlanned(a) && isPlanned(b);
-      const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
-      const bool a_faces = a_can && !(b_can && isOnlyAField(i, k)), b_faces = b_can && !(a_can && isOnlyAField(k, i));
-      const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
-      const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
-      const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
-      const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
-      plan.pairs.push_back({i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses});
-      if (a_witnesses) plan.needs_witnesses[i] = plan.needs_field[k] = true;
-      if (b_witnesses) plan.needs_witnesses[k] = plan.needs_field[i] = true;
-      if (a_faces) needs_faces[i] = true;
-      if (b_faces) needs_faces[k] = true;
-      has_pair[i] = has_pair[k] = true;
-      if (a_can && b_can && options.both_fields) plan.needs_field[i] = plan.needs_field[k] = true;
-      if (a_shell) plan.needs_shell[i] = plan.needs_field[k] = true;
-      if (b_shell) plan.needs_shell[k] = plan.needs_field[i] = true;
-    }
-  }
-
+  plan.needs.assign(count, {false, false, false, false});
+  std::vector<Planned> planned(count);
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
-    plan.edges_only.push_back(plan.needs_shell[i] && !needs_faces[i]);
-    if (!body.failure.empty() || body.geometry.empty()) continue;
-    std::string no_shell = whyNoShell(body);
-    if (no_shell.empty() && is_large[i] && has_pair[i]) no_shell = "large; the shells of smaller bodies suffice";
-    const std::string idle = has_pair[i] ? "the others of its pairs cannot be checked" : "no pair needs it";
-    if (!plan.needs_field[i])
-      plan.left_out.push_back({"field of " + body.name, plan.needs_shell[i] ? "used only as a shell" : idle});
-    if (plan.edges_only[i]) plan.left_out.push_back({"full-shell of " + body.name, no_shell});
-    if (!plan.needs_shell[i]) plan.left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
+    planned[i].may_have_triangles = mayHaveTriangles(body);
+    if (!isPlanned(body)) continue;
+    plan.needs[i].field = hidesVoxels(description, body);
+    planned[i].is_large = isLarge(body, options);
+    planned[i].extent = extentOf(body);
+  }
+  for (int i = 0; i < count; ++i) {
+    for (int k = i + 1; k < count; ++k) {
+      const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
+      if (a.is_world && b.is_world) continue;
+      const std::string reason = whyLeftOut(a, b, allowed);
+      if (reason.empty()) {
+        plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
+      } else {
+        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
+      }
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    plan.needs[i].edges_only = plan.needs[i].shell && !planned[i].needs_faces;
+    listLeftOut(description.bodies[i], planned[i], plan.needs[i], plan.left_out);
   }
   return plan;
 }

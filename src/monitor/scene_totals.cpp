@@ -13,12 +13,15 @@ bool isLarger(const ErrorBound& a, const ErrorBound& b) {
 
 }  // namespace
 
-void countPairs(Scene& scene) {
-  for (BodyReport& report : scene.reports) report.pairs = 0;
-  for (const PlannedPair& pair : scene.pairs) {
-    ++scene.reports[pair.body_a].pairs;
-    ++scene.reports[pair.body_b].pairs;
-  }
+Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options) {
+  Scene scene;
+  scene.pairs = plan.pairs;
+  scene.left_out = plan.left_out;
+  scene.visual_only = description.visual_only;
+  scene.max_error = options.max_error;
+  scene.motion_margin = options.motion_margin;
+  scene.motion_error = options.motion_error;
+  return scene;
 }
 
 std::size_t pairsOfObjects(const BodyList& bodies) {
@@ -27,10 +30,15 @@ std::size_t pairsOfObjects(const BodyList& bodies) {
   return objects * (objects - std::min<std::size_t>(objects, 1)) / 2;
 }
 
-void setBounds(Scene& scene) {
+void setTotals(Scene& scene) {
   scene.bound = scene.contact_bound = {};
-  for (BodyReport& report : scene.reports) report.bound = {};
+  for (BodyReport& report : scene.reports) {
+    report.bound = {};
+    report.pairs = 0;
+  }
   for (const PlannedPair& pair : scene.pairs) {
+    ++scene.reports[pair.body_a].pairs;
+    ++scene.reports[pair.body_b].pairs;
     ErrorBound of_contacts = pairBound(scene, pair), bound = verdictBound(scene, pair);
     if (of_contacts.total() == 0.0) continue;  // one of the bodies was not built
     of_contacts.chord = scene.motion_margin;

@@ -6,13 +6,14 @@
 
 namespace sdf_ccd {
 
-/// Sets BodyReport::pairs, the number of pairs of each body.
-void countPairs(Scene& scene);
+/// A scene without bodies yet, as planned.
+Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options);
+
+/// Sets what follows from the pairs: BodyReport::pairs, the number of pairs of each body, and the largest error bounds
+/// of verdicts and of contacts, for each body and for the scene.
+void setTotals(Scene& scene);
 
 /// Number of pairs of two bodies of the world, none of which is tested.
 std::size_t pairsOfObjects(const BodyList& bodies);
-
-/// Sets the largest error bounds of verdicts and of contacts, for each body and for the scene.
-void setBounds(Scene& scene);
 
 }  // namespace sdf_ccd

@@ -77,8 +77,7 @@ VoxelMap::VoxelMap(std::string name, std::string frame, const VoxelMapOptions& o
 struct VoxelMap::Made {
   TileKey key = 0;
   std::shared_ptr<const Tile> tile;
-  BodyDescription body;
-  std::optional<DistanceField> field;  // if the tile is new
+  std::optional<BodyDescription> body;  // if the tile is new
 };
 
 /// A new tile.
@@ -91,13 +90,14 @@ VoxelMap::Made VoxelMap::make(TileKey key, const TileMap& occupied, double size)
   geometry.source = name_;
   geometry.watertight_voxels = true;
   geometry.cell_size = 0.5 * size;
-  Made made{key, made_tile, {}, voxelField(made_tile->block, place, options_.band)};
-  made.body.name = nameOf(name_, tile);
-  made.body.frame = frame_;
-  made.body.is_world = true;
-  made.body.map = name_;
-  made.body.geometry.push_back(std::move(geometry));
-  return made;
+  geometry.field = voxelField(made_tile->block, place, options_.band);
+  BodyDescription body;
+  body.name = nameOf(name_, tile);
+  body.frame = frame_;
+  body.is_world = true;
+  body.map = name_;
+  body.geometry.push_back(std::move(geometry));
+  return {key, made_tile, std::move(body)};
 }
 
 std::vector<VoxelMap::Made> VoxelMap::make(const TileMap& occupied, double size, const Tiles& last) const {
@@ -121,7 +121,7 @@ std::vector<VoxelMap::Made> VoxelMap::make(const TileMap& occupied, double size,
     const auto found = last.find(keys[k]);
     const bool stays = found != last.end() && (!anyAround(tile, has_changed) ||
                                                found->second->block.occupied == blockOf(tile, occupied).occupied);
-    made[k] = stays ? Made{keys[k], found->second, {}, {}} : make(keys[k], occupied, size);
+    made[k] = stays ? Made{keys[k], found->second, {}} : make(keys[k], occupied, size);
   });
   return made;
 }
@@ -135,9 +135,7 @@ VoxelMap::Change VoxelMap::take(const VoxelGrid& grid, const std::vector<VoxelMa
   Tiles tiles;
   for (Made& made : make(occupied, grid.size(), grid.size() == size_ ? tiles_ : none)) {
     tiles.emplace(made.key, std::move(made.tile));
-    if (!made.field) continue;
-    change.made.push_back(std::move(made.body));
-    change.fields.push_back(std::move(*made.field));
+    if (made.body) change.made.push_back(std::move(*made.body));
   }
   for (const auto& [key, tile] : tiles_)
     if (tiles.count(key) == 0) change.removed.push_back(nameOf(name_, tileOf(key)));

@@ -7,7 +7,6 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "voxel_grid.h"
 
@@ -26,8 +25,7 @@ class VoxelMap {
   VoxelMap(std::string name, std::string frame, const VoxelMapOptions& options);
 
   struct Change {
-    std::vector<BodyDescription> made;  ///< tiles that are new or have changed: one mesh each
-    std::vector<DistanceField> fields;  ///< of each, for WorldEditor::provide()
+    std::vector<BodyDescription> made;  ///< tiles that are new or have changed: one mesh with its field each
     std::vector<std::string> removed;   ///< names of tiles in which nothing is occupied any more
     std::size_t occupied = 0;           ///< voxels, without masked ones
     std::size_t masked = 0;

@@ -97,7 +97,8 @@ TEST(MaxError, ATableIsHeldToTheEdgeGap) {
       {body("table", Primitive(Box{{1.0, 0.6, 0.02}}), true), body("link", meshShape(boxMesh({0.1, 0.05, 0.03})))}, {}};
   const BodyOptions options = optionsFor({0.001});
   const ScenePlan plan = planScene(description, planOptions(options));
-  ASSERT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
+  ASSERT_TRUE(plan.needs[0].edges_only);
+  ASSERT_FALSE(plan.needs[1].edges_only);
   const auto scene = std::make_shared<const Scene>(buildScene(description, plan, options));
   EXPECT_LE(scene->contact_bound.total(), 0.001);
   EXPECT_LT(scene->bodies[0].shell->size(), 30000u);

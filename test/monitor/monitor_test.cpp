@@ -301,11 +301,12 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
 
 TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
   Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
-  Body& ball = scene.bodies.edit(1);
+  Body ball = scene.bodies[1];
   PointShell coarse = ball.shell;
   coarse.covering_radius = 0.2;
   ball.shell = coarse;
   ball.ball.radius = 0.1 + 0.2;
+  scene.bodies = BodyList({scene.bodies[0], ball});
   Monitor monitor(std::make_shared<const Scene>(scene), soft());
   for (const double height : {2.0, 0.35}) {  // from the ball alone, and from the points
     monitor.reset();

@@ -44,7 +44,11 @@ TEST(OverBudget, NamesWhatWasMadeCoarser) {
       build({body("a", meshShape(icosphere(0.1, 3))), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, options);
   EXPECT_EQ(overBudget(*scene), "");  // triangles decide
   Scene without = *scene;             // as for bodies with more than half a million triangles
-  for (std::size_t i = 0; i < without.bodies.size(); ++i) without.bodies.edit(i).triangles.reset();
+  without.bodies = {};
+  for (Body body : scene->bodies) {
+    body.triangles.reset();
+    without.bodies.push_back(std::move(body));
+  }
   without.bound = without.contact_bound;
   const std::string text = overBudget(without);
   EXPECT_NE(text.find("the field of a has an error of "), std::string::npos) << text;

@@ -14,6 +14,13 @@ using namespace test;
 
 const Primitive kBall = Sphere{0.1};
 
+/// Per body: whether the plan needs this of it.
+std::vector<bool> which(const ScenePlan& plan, bool BodyNeeds::*need) {
+  std::vector<bool> bodies;
+  for (const BodyNeeds& needs : plan.needs) bodies.push_back(needs.*need);
+  return bodies;
+}
+
 std::string reasonOf(const ScenePlan& plan, const std::string& what) {
   for (const LeftOut& item : plan.left_out)
     if (item.what == what) return item.reason;
@@ -62,27 +69,27 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
   EXPECT_TRUE(plan.pairs[1].a_shell_b_field);
   EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
-  EXPECT_EQ(plan.needs_shell, (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(which(plan, &BodyNeeds::shell), (std::vector<bool>{false, true, false}));
   // Voxels may lie wholly inside the arm: its field at their witness points shows that.
   EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
   EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
-  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{true, false, false}));
-  EXPECT_EQ(plan.needs_field, (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(which(plan, &BodyNeeds::witnesses), (std::vector<bool>{true, false, false}));
+  EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{true, true, true}));
   EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither has a surface that can be sampled");
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
 }
 
 TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
   const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
-  EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, true}));
-  EXPECT_EQ(plan.needs_witnesses, (std::vector<bool>{false, false}));
+  EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{false, true}));
+  EXPECT_EQ(which(plan, &BodyNeeds::witnesses), (std::vector<bool>{false, false}));
   EXPECT_EQ(reasonOf(plan, "field of arm"), "used only as a shell");
 }
 
 TEST(ScenePlan, UnusedBodiesAreNotBuilt) {
   const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall)}, {{"a", "b", "never"}}});
   EXPECT_TRUE(plan.pairs.empty());
-  EXPECT_EQ(plan.needs_field, (std::vector<bool>{false, false}));
+  EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{false, false}));
   EXPECT_EQ(reasonOf(plan, "field of a"), "no pair needs it");
   EXPECT_EQ(reasonOf(plan, "shell of b"), "no pair needs it");
 }
@@ -93,20 +100,20 @@ TEST(ScenePlan, PairsOfFailedBodiesStay) {
   bodies[1].geometry.clear();
   const ScenePlan plan = planScene({bodies, {}});
   EXPECT_EQ(plan.pairs.size(), 3u);
-  EXPECT_FALSE(plan.needs_field[1]);
-  EXPECT_TRUE(plan.needs_field[0]);
+  EXPECT_FALSE(plan.needs[1].field);
+  EXPECT_TRUE(plan.needs[0].field);
 }
 
 TEST(ScenePlan, BodiesArePreparedForATileThatIsToCome) {
   std::vector<BodyDescription> bodies = {body("link", kBall), body("tile", kBall, true)};
   bodies[1].geometry[0].watertight_voxels = true;
   bodies[1].failure = "no map has come yet";
-  EXPECT_FALSE(planScene({bodies, {}}).needs_shell[0]);  // a body that failed will not come
+  EXPECT_FALSE(planScene({bodies, {}}).needs[0].shell);  // a body that failed will not come
   bodies[1].map = "map";
   const ScenePlan plan = planScene({bodies, {}});
   ASSERT_EQ(plan.pairs.size(), 1u);
   EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
-  EXPECT_TRUE(plan.needs_shell[0]);
+  EXPECT_TRUE(plan.needs[0].shell);
 }
 
 TEST(ScenePlan, ALiveMapNeedsFieldsOfLinks) {
@@ -115,9 +122,9 @@ TEST(ScenePlan, ALiveMapNeedsFieldsOfLinks) {
   for (const char* other : {"b", "ball", "table"}) scene.allowed.push_back({"a", other, "SRDF"});
   for (const char* other : {"ball", "table"}) scene.allowed.push_back({"b", other, "SRDF"});
   scene.allowed.push_back({"ball", "table", "SRDF"});
-  EXPECT_EQ(planScene(scene).needs_field, std::vector<bool>({false, false, false, false}));
+  EXPECT_EQ(which(planScene(scene), &BodyNeeds::field), std::vector<bool>({false, false, false, false}));
   scene.has_live_map = true;
-  EXPECT_EQ(planScene(scene).needs_field, std::vector<bool>({true, true, false, false}));
+  EXPECT_EQ(which(planScene(scene), &BodyNeeds::field), std::vector<bool>({true, true, false, false}));
 }
 
 TEST(ScenePlan, BodiesWithoutGeometryHaveNoPairs) {
@@ -149,7 +156,7 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_TRUE(planScene(cubes, {0.001}).pairs[0].a_shell_b_field);
   EXPECT_TRUE(planScene(scene, {0.1}).pairs[0].a_shell_b_field);
   const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});
-  EXPECT_FALSE(two.needs_shell[0]);
+  EXPECT_FALSE(two.needs[0].shell);
   ASSERT_EQ(two.left_out.size(), 2U);
   EXPECT_EQ(two.left_out[0].what, "shell of table");
 }
@@ -164,7 +171,7 @@ TEST(ScenePlan, LargeBoxKeepsItsEdges) {
   EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
   EXPECT_TRUE(plan.pairs[0].a_edges_only);
   EXPECT_FALSE(plan.pairs[0].b_edges_only);
-  EXPECT_EQ(plan.edges_only, (std::vector<bool>{true, false}));
+  EXPECT_EQ(which(plan, &BodyNeeds::edges_only), (std::vector<bool>{true, false}));
   EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large; the shells of smaller bodies suffice");
 }
 

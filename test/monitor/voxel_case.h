@@ -27,7 +27,7 @@ class Kept {
  public:
   void take(const VoxelMap::Change& change) {
     for (const std::string& name : change.removed) ASSERT_EQ(tiles_.erase(name), 1U) << name;
-    for (std::size_t i = 0; i < change.made.size(); ++i) tiles_.insert_or_assign(change.made[i].name, change.fields[i]);
+    for (const BodyDescription& made : change.made) tiles_.insert_or_assign(made.name, *made.geometry[0].field);
   }
   double distance(const Vector3d& p) const {
     double least = 1e9;

@@ -229,7 +229,7 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   const VoxelMap::Change change = map.take(std::move(grid), {});
   EXPECT_GE(change.occupied, 143729U);
   std::size_t bytes_of_fields = 0;
-  for (const DistanceField& field : change.fields) bytes_of_fields += field.bytes();
+  for (const BodyDescription& tile : change.made) bytes_of_fields += tile.geometry[0].field->bytes();
   EXPECT_LT(bytes_of_fields, 100'000'000U);
   RecordProperty("tiles", int(change.made.size()));
   RecordProperty("megabytes", int(bytes_of_fields >> 20));
@@ -237,15 +237,13 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   SceneDescription description{{body("ball", Primitive(Sphere{0.1}))}, {}};
   description.bodies.insert(description.bodies.end(), change.made.begin(), change.made.end());
   WorldEditor editor(fine(0.02));
-  for (std::size_t i = 0; i < change.made.size(); ++i)
-    editor.provide(std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry[0].shape), change.fields[i]);
   const auto snapshot = editor.next(description);
   Monitor monitor(snapshot->scene, {});
   // Across the whole map at a height where there are walls.
   CycleMotion motion;
   motion.times = {0.0, 1.0};
   AlignedBox3d box;
-  for (const DistanceField& field : change.fields) box.extend(field.box());
+  for (const BodyDescription& tile : change.made) box.extend(tile.geometry[0].field->box());
   const Vector3d middle = box.center();
   motion.X_WB.assign(description.bodies.size(), still(Isometry3d::Identity()));
   motion.X_WB[0] = {translation({box.min().x(), middle.y(), middle.z()}),

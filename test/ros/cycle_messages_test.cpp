@@ -33,7 +33,9 @@ TEST_F(CycleMessagesTest, TheCauseOfWhatIsNotCheckedIsNamed) {
 
 TEST_F(CycleMessagesTest, ACheckThatFailsIsToldOfItsWholeTime) {
   Scene broken = *handFootAndPlate();
-  broken.bodies.edit(0).X_frame_B.linear() *= 1.1;  // not a rotation
+  std::vector<Body> bodies(broken.bodies.begin(), broken.bodies.end());
+  bodies[0].X_frame_B.linear() *= 1.1;  // not a rotation
+  broken.bodies = BodyList(std::move(bodies));
   MonitorParameters parameters;
   parameters.monitor = soft();
   loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(broken), describedWorld(), parameters);

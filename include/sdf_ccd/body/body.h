@@ -9,6 +9,7 @@
 
 #include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/query/verdict.h"
 #include "sdf_ccd/shell/point_shell.h"
 
@@ -53,13 +54,7 @@ struct BodyPart {
 constexpr double kHalfSpaceRadius = 10.0;
 
 /// A body that is ready to be checked.
-struct Body {
-  std::string name;
-  std::string frame;
-  Isometry3d X_frame_B = Isometry3d::Identity();
-  bool is_world = false;
-  std::string map;                ///< the map that the body is a tile of; empty if it is none
-  std::string failure;            ///< why it cannot be checked; empty if it can
+struct Body : BodyPlace {
   std::string warning;            ///< about the inside of its meshes (see warningOf()); empty if there is none
   std::vector<BodyPart> parts;    ///< empty if no pair needs its field
   SharedValue<PointShell> shell;  ///< frame B; empty if no pair needs it; without points deep inside a sibling part
@@ -114,7 +109,7 @@ class BodyList {
 
   class const_iterator {
    public:
-    using iterator_category = std::random_access_iterator_tag;
+    using iterator_category = std::forward_iterator_tag;
     using value_type = Body;
     using difference_type = std::ptrdiff_t;
     using pointer = const Body*;
@@ -126,10 +121,6 @@ class BodyList {
     const Body* operator->() const { return at_->get(); }
     const_iterator& operator++() { return ++at_, *this; }
     const_iterator operator++(int) { return const_iterator(at_++); }
-    const_iterator& operator--() { return --at_, *this; }
-    const_iterator& operator+=(std::ptrdiff_t n) { return at_ += n, *this; }
-    const_iterator operator+(std::ptrdiff_t n) const { return const_iterator(at_ + n); }
-    std::ptrdiff_t operator-(const const_iterator& other) const { return at_ - other.at_; }
     bool operator==(const const_iterator& other) const { return at_ == other.at_; }
     bool operator!=(const const_iterator& other) const { return at_ != other.at_; }
 
@@ -153,14 +144,6 @@ class BodyList {
 
   void push_back(Body body) { bodies_.push_back(std::make_shared<const Body>(std::move(body))); }
   void push_back(Shared body) { bodies_.push_back(std::move(body)); }
-
-  /// Replaces the body by a copy that only this list holds, to be modified. The reference is valid until the next call.
-  Body& edit(std::size_t i) {
-    auto own = std::make_shared<Body>(*bodies_[i]);
-    Body& body = *own;
-    bodies_[i] = std::move(own);
-    return body;
-  }
 
  private:
   std::vector<Shared> bodies_;

@@ -12,6 +12,19 @@
 
 namespace sdf_ccd {
 
+/// Parts of a body to build.
+struct BodyNeeds {
+  bool field = true;
+  bool shell = true;
+  bool edges_only = false;  ///< the body is one box, and no pair needs more of its shell
+  bool decides = true;      ///< some verdict depends on the shell: large elements must have all points
+  bool witnesses = false;   ///< Body::witnesses
+  bool triangles = false;   ///< Body::triangles
+  bool surface = false;     ///< Body::surface
+
+  bool any() const { return field || shell || witnesses; }
+};
+
 /// Required accuracy of bodies that are prepared for checks.
 struct Accuracy {
   double max_error = 1e-3;           ///< of a verdict about two bodies, without the error of motions [m]

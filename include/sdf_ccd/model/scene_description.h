@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -20,6 +21,8 @@ struct GeometryDescription {
   bool watertight_voxels = false;            ///< boundary of whole voxels: has no shell
   std::optional<double> cell_size = {};      ///< of a mesh's field [m]; none: that of BodyOptions::field
   std::optional<Vector3d> scale = {};        ///< of the mesh in the file `source`; none if that file has another name
+  /// Of the mesh, made elsewhere (a map's tile), as accurate as the options require; none: it is built.
+  std::optional<DistanceField> field = {};
 };
 
 inline bool isHalfSpace(const GeometryDescription& geometry) {
@@ -27,15 +30,24 @@ inline bool isHalfSpace(const GeometryDescription& geometry) {
   return primitive && isHalfSpace(*primitive);
 }
 
-/// A rigid body: a robot's link or an object of the world.
-struct BodyDescription {
+/// What is to know of a body besides its geometry. Bodies of equal geometry differ in nothing else.
+struct BodyPlace {
   std::string name;
   std::string frame;                              ///< the tf frame that carries it
   Isometry3d X_frame_B = Isometry3d::Identity();  ///< its frame B in that frame
+  std::string failure;                            ///< why the body cannot be checked; empty if it can
+  bool is_world = false;                          ///< an object of the world, not a link
+  std::string map;                                ///< the map that the body is a tile of; empty if it is none
+};
+
+inline bool operator==(const BodyPlace& a, const BodyPlace& b) {
+  return a.name == b.name && a.frame == b.frame && a.X_frame_B.matrix() == b.X_frame_B.matrix() &&
+         a.failure == b.failure && a.is_world == b.is_world && a.map == b.map;
+}
+
+/// A rigid body: a robot's link or an object of the world.
+struct BodyDescription : BodyPlace {
   std::vector<GeometryDescription> geometry;
-  std::string failure;    ///< why the body cannot be checked; empty if it can
-  bool is_world = false;  ///< an object of the world, not a link
-  std::string map;        ///< the map that the body is a tile of; empty if it is none
 };
 
 /// A pair that is allowed to collide, so it is left out, by the bodies' names.

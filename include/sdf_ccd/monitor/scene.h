@@ -37,10 +37,7 @@ struct SceneCost;
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
-  std::vector<bool> needs_field;      ///< per body
-  std::vector<bool> needs_shell;      ///< per body
-  std::vector<bool> edges_only;       ///< per body: pairs need only the points on edges of its shell
-  std::vector<bool> needs_witnesses;  ///< per body
+  std::vector<BodyNeeds> needs;  ///< per body; without surfaces, which depend on the fields once these are built
   std::vector<LeftOut> left_out;
 
   /// Result of expectedCost() for the same scene and options; null if it was not called. With it, buildScene() does not

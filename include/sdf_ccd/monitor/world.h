@@ -43,10 +43,6 @@ class WorldEditor {
   /// @param plan  the plan from which it was built, with the same options.
   std::shared_ptr<const WorldSnapshot> begin(SceneDescription description, const ScenePlan& plan, Scene scene);
 
-  /// Supplies the field of a mesh, built elsewhere (a map's tile). It is used for descriptions with that mesh as long
-  /// as the mesh lives. It must be as accurate as the options require.
-  void provide(const std::shared_ptr<const TriangleMesh>& mesh, const DistanceField& field);
-
   /// Makes the next version. If it throws, the last version is unchanged.
   /// @param progress  called with the name of each body that is being built.
   /// @param announce  called before, with a line about the cost, if that is expected to take over a second.

@@ -89,7 +89,7 @@ void LiveMap::checkAge() {
   if (in_scene_ == InScene::kAwaited || secondsBetween(received_, now) <= parameters_.max_age) return;
   const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
                           " s (octomap/max_age)";
-  editor_.setMap({awaitedTile(history_.fixedFrame(), why)}, {});
+  editor_.setMap({awaitedTile(history_.fixedFrame(), why)});
   in_scene_ = InScene::kAwaited;
   ROS_WARN("%s: the robot is not checked against it", why.c_str());
 }
@@ -156,10 +156,6 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   });
   for (const std::string& name : change.removed) tiles_.erase(name);
   const std::size_t made = change.made.size();
-  std::vector<MadeField> fields;
-  for (std::size_t i = 0; i < made; ++i)
-    fields.push_back({std::get<std::shared_ptr<const TriangleMesh>>(change.made[i].geometry.front().shape),
-                      std::move(change.fields[i])});
   for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
   const double built = secondsSince(start);
   std::vector<BodyDescription> tiles;
@@ -168,7 +164,7 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   std::uint64_t version = world->version();
   if (made > 0 || !change.removed.empty() || in_scene_ != InScene::kTiles) {
     markOutdated();  // if setMap() fails, the next map tries again
-    version = editor_.setMap(std::move(tiles), fields);
+    version = editor_.setMap(std::move(tiles));
     in_scene_ = InScene::kTiles;
   }
   unknown_ = robot.unknown();

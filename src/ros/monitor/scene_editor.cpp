@@ -217,10 +217,9 @@ std::shared_ptr<const CheckedWorld> SceneEditor::world() {
   return last_;
 }
 
-std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields) {
+std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles) {
   lowerPriority();
   const EditLock lock(*this);
-  for (const MadeField& made : fields) editor_->provide(made.mesh, made.field);
   ChangingScene scene = scene_;
   scene.setTiles(std::move(tiles));
   std::string making;

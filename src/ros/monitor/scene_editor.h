@@ -22,12 +22,6 @@ struct PreparedWorld {
   std::unique_ptr<Outputs::Change> outputs;
 };
 
-/// A mesh and its field, made elsewhere.
-struct MadeField {
-  std::shared_ptr<const TriangleMesh> mesh;
-  DistanceField field;
-};
-
 /// Makes the next version of the world in the calling threads, one after the other, in parallel to the cycles and with
 /// lower priority, on at most half of the cores; then hands it over to the thread of the cycles.
 ///
@@ -52,9 +46,8 @@ class SceneEditor {
   void update(const UpdateScene::Request& request, UpdateScene::Response& response);
 
   /// Replaces the tiles of the live map. @return the version with the new ones.
-  /// @param fields  of the new tiles.
   /// @throws std::exception if they cannot be made; Cancelled. The scene does not change then.
-  std::uint64_t setMap(std::vector<BodyDescription> tiles, const std::vector<MadeField>& fields);
+  std::uint64_t setMap(std::vector<BodyDescription> tiles);
 
   /// The last version that was made. May be called from any thread.
   std::shared_ptr<const CheckedWorld> world();
