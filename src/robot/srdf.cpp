@@ -1,9 +1,5 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
-#include <cmath>
-#include <locale>
-#include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include <tinyxml2.h>
@@ -24,29 +20,6 @@ std::string attribute(const XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
   if (!value || !*value) fail(element.GetLineNum(), std::string(element.Name()) + " lacks the attribute " + name);
   return value;
-}
-
-/// The number in a joint's value; empty if it has several, as for planar and floating joints.
-std::optional<double> jointValue(const XMLElement& joint) {
-  const std::string text = attribute(joint, "value");
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  int count = 0;
-  double value = 0.0;
-  for (double next; stream >> next; ++count) value = next;
-  if (count == 0 || !stream.eof() || !std::isfinite(value)) {
-    fail(joint.GetLineNum(), "joint " + attribute(joint, "name") + ": value \"" + text + "\" is no number");
-  }
-  return count == 1 ? std::make_optional(value) : std::nullopt;
-}
-
-JointPositions readState(const XMLElement& state) {
-  JointPositions positions;
-  for (const XMLElement* joint = state.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
-    const std::optional<double> value = jointValue(*joint);
-    if (value) positions[attribute(*joint, "name")] = *value;
-  }
-  return positions;
 }
 
 Srdf readSrdf(const std::string& xml) {
@@ -74,10 +47,6 @@ Srdf readSrdf(const std::string& xml) {
       srdf.enabled.emplace_back(attribute(*element, "link1"), attribute(*element, "link2"));
     } else if (name == "virtual_joint") {
       srdf.virtual_joints[attribute(*element, "name")] = attribute(*element, "child_link");
-    } else if (name == "group_state") {
-      const char* group = element->Attribute("group");
-      const std::string state = attribute(*element, "name");
-      srdf.states[group && *group ? group + ("/" + state) : state] = readState(*element);
     }
   }
   return srdf;

@@ -33,16 +33,6 @@ TEST(Srdf, ReadsPairsWithTheirReasons) {
   EXPECT_EQ(srdf.enabled[0], (std::pair<std::string, std::string>("d", "a")));
 }
 
-TEST(Srdf, ReadsStates) {
-  const Srdf srdf = parseSrdf(R"(<robot name="arm">
-      <group_state name="ready" group="arm"><joint name="j1" value="-1.5e-1"/><joint name="j2" value=" 2. "/></group_state>
-      <group_state name="up"><joint name="base" value="0 0 1"/><joint name="j1" value="1"/></group_state>
-    </robot>)");
-  ASSERT_EQ(srdf.states.size(), 2u);
-  EXPECT_EQ(srdf.states.at("arm/ready"), (JointPositions{{"j1", -0.15}, {"j2", 2.0}}));
-  EXPECT_EQ(srdf.states.at("up"), (JointPositions{{"j1", 1.0}}));
-}
-
 TEST(Srdf, MalformedTextGivesLineAndReason) {
   EXPECT_NE(failure("<robot>\n<group>\n</robot>").find("line"), std::string::npos);
   EXPECT_NE(failure("").find("line"), std::string::npos);
@@ -52,11 +42,6 @@ TEST(Srdf, MalformedTextGivesLineAndReason) {
                 .find("line 3: disable_collisions lacks the attribute link2"),
             std::string::npos);
   EXPECT_NE(failure("<robot><disable_default_collisions/></robot>").find("attribute link"), std::string::npos);
-  for (const char* value : {"fast", "1 2 x", "nan", "1e999", ""}) {
-    const std::string xml = std::string("<robot><group_state name='s' group='g'>\n<joint name='j' value='") + value +
-                            "'/></group_state></robot>";
-    EXPECT_NE(failure(xml).find("line 2"), std::string::npos) << value;
-  }
 }
 
 TEST(Srdf, DeepAndLargeTextsAreRefused) {

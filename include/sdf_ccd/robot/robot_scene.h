@@ -40,16 +40,15 @@ Resource loadLocalResource(const std::string& uri, const PackageFinder& packages
 struct Srdf {
   std::string robot;                                         ///< the robot's name in the file; may be empty
   std::vector<AllowedPair> disabled;                         ///< reason: "SRDF: " and the file's
-  std::map<std::string, JointPositions> states;              ///< "group/state"; "state" where the file names no group
   std::vector<std::string> disabled_by_default;              ///< links that are only checked against those of `enabled`
   std::map<std::string, std::string> virtual_joints;         ///< child link by name; parent frame and type are not used
   std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
 };
 
-/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions`, `group_state` and
-/// `virtual_joint`. As in MoveIt, a pair that is both disabled and enabled is disabled. Beyond MoveIt, links of the
-/// first three may be named by patterns: * for any text, ? for any character. Joints with several values in a state
-/// (planar, floating) are left out of it.
+/// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `virtual_joint`. As in MoveIt, a
+/// pair that is both disabled and enabled is disabled. Beyond MoveIt, links of the first three may be named by
+/// patterns:
+/// * for any text, ? for any character.
 /// @param source  where the text is from, for errors; may be empty.
 /// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});
