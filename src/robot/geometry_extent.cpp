@@ -29,7 +29,7 @@ std::vector<Vector3d> hullPoints(const GeometryDescription& element) {
 
 }  // namespace
 
-ExtentBall extentBall(const std::vector<GeometryDescription>& geometry) {
+BoundingBall extentBall(const std::vector<GeometryDescription>& geometry) {
   AlignedBox3d box;
   std::vector<Vector3d> points;
   for (const GeometryDescription& element : geometry) {
@@ -39,7 +39,8 @@ ExtentBall extentBall(const std::vector<GeometryDescription>& geometry) {
       points.push_back(p);
     }
   }
-  ExtentBall ball{box.center(), 0.0};
+  if (points.empty()) return {};
+  BoundingBall ball{box.center(), 0.0};
   for (const Vector3d& p : points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
   return ball;
 }

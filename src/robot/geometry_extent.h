@@ -6,14 +6,8 @@
 
 namespace sdf_ccd {
 
-/// A ball around a body's geometry, in its frame.
-struct ExtentBall {
-  Vector3d center;
-  double radius;  ///< [m]; infinite for a half-space
-};
-
-/// `geometry` must not be empty.
-ExtentBall extentBall(const std::vector<GeometryDescription>& geometry);
+/// A ball around a body's geometry, in its frame; of infinite radius for a half-space, of none without geometry.
+BoundingBall extentBall(const std::vector<GeometryDescription>& geometry);
 
 /// Lower bound of the distance from p (in the body's frame) to the geometry [m]; may be negative inside.
 double distanceBelow(const std::vector<GeometryDescription>& geometry, const Vector3d& p);

@@ -22,8 +22,8 @@ class PairFilter {
       : robot_(robot), options_(options), srdf_(srdf) {}
 
   /// @param ball_a  contains A's geometry; empty if its size is not known. The same for ball_b.
-  std::string reason(const BodyDescription& a, const std::optional<ExtentBall>& ball_a, const BodyDescription& b,
-                     const std::optional<ExtentBall>& ball_b) const {
+  std::string reason(const BodyDescription& a, const std::optional<BoundingBall>& ball_a, const BodyDescription& b,
+                     const std::optional<BoundingBall>& ball_b) const {
     std::string disabled = srdf_.whyDisabled(a.name, b.name);
     if (!disabled.empty()) return disabled;
     if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
@@ -64,8 +64,8 @@ std::optional<Isometry3d> poseInRoot(const RobotModel& robot, const std::vector<
 
 /// True if the link's ball cannot reach the object, whose pose in the root's frame is X_RB.
 bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Isometry3d& X_RB, const std::string& link,
-                const ExtentBall& ball) {
-  const ExtentBall object_ball = extentBall(object.geometry);
+                const BoundingBall& ball) {
+  const BoundingBall object_ball = extentBall(object.geometry);
   const auto between = robot.reach(robot.root(), X_RB * object_ball.center, link, ball.center);
   if (between.nearest > object_ball.radius + ball.radius) return true;
   // The ball of a wide object is much larger; the object itself may be beyond the reach of the link.
@@ -121,7 +121,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     warnings.push_back("the SRDF names link " + link + ", which the URDF does not have");
 
   requireFewPairs(robot, scene.bodies.size());
-  std::vector<std::optional<ExtentBall>> balls;
+  std::vector<std::optional<BoundingBall>> balls;
   for (const BodyDescription& body : scene.bodies) {
     balls.push_back(body.failure.empty() ? std::make_optional(extentBall(body.geometry)) : std::nullopt);
   }

@@ -19,12 +19,6 @@ const char* const kRigidlyJoined = "rigidly joined";
 
 namespace {
 
-BoundingBall ballOf(const BodyDescription& body) {
-  if (body.geometry.empty()) return {};  // it could not be read
-  const ExtentBall ball = extentBall(body.geometry);
-  return {ball.center, ball.radius};
-}
-
 /// Why a prismatic joint's assumed range does not hold in a state; empty if it does.
 std::string beyond(const RobotModel& robot, const RobotState& state, const RobotModel::Slide& slide) {
   const urdf::Joint& joint = *robot.urdf().getJoint(slide.joint);
@@ -76,7 +70,7 @@ std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std
   std::map<int, BoundingBall> balls;
   const auto ballOfBody = [&](int body) {
     const auto [ball, is_new] = balls.try_emplace(body);
-    if (is_new) ball->second = ballOf(bodies[body]);
+    if (is_new) ball->second = extentBall(bodies[body].geometry);
     return ball->second;
   };
   std::vector<UnreachablePair> pairs;
