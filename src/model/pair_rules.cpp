@@ -9,10 +9,6 @@
 namespace sdf_ccd {
 namespace {
 
-std::string textOf(const PairRule& rule) {
-  return rule.a + " - " + rule.b;
-}
-
 void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const SceneDescription& scene,
                    std::vector<std::string>& warnings) {
   std::set<std::string> names, reported;
@@ -64,7 +60,7 @@ std::string whyAllowed(const PairRules& rules, const std::string& name_a, const 
   const auto rule = std::find_if(rules.allowed.begin(), rules.allowed.end(),
                                  [&](const PairRule& allowed) { return matches(allowed, name_a, name_b); });
   if (rule == rules.allowed.end() || matchesAny(rules.checked, name_a, name_b)) return "";
-  return "allowed_pairs: " + textOf(*rule);
+  return "allowed_pairs: " + pairName(rule->a, rule->b);
 }
 
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings) {

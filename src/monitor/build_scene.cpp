@@ -7,6 +7,7 @@
 
 #include "body/body_builder.h"
 #include "common/seconds_since.h"
+#include "model/name_pair.h"
 #include "monitor/scene_cost.h"
 #include "scene_totals.h"
 #include "sdf_ccd/common/cancel.h"
@@ -68,7 +69,7 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const bool checkable = body_a.failure.empty() && body_b.failure.empty();
   PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
   if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
-    throw std::invalid_argument("pair " + body_a.name + " - " + body_b.name +
+    throw std::invalid_argument("pair " + pairName(body_a.name, body_b.name) +
                                 ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
                                 "world, say so (Body::is_world)");
   }
@@ -137,8 +138,7 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
     if (reasons[p].empty()) {
       kept.push_back(pair);
     } else {
-      scene.left_out.push_back({"pair " + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name,
-                                reasons[p], pair.body_a, pair.body_b});
+      scene.left_out.push_back({"pair " + pairName(scene, pair), reasons[p], pair.body_a, pair.body_b});
     }
   }
   if (kept.size() == scene.pairs.size()) return;

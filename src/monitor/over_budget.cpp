@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "model/error_budget.h"
 #include "pair_bound.h"
@@ -72,11 +73,10 @@ std::string overBudget(const Scene& scene) {
   std::vector<std::pair<double, std::string>> worst;
   for (const auto& [key, bound] : largest) worst.emplace_back(-bound.first, bound.second);
   std::sort(worst.begin(), worst.end());
-  std::string text = "the error bound is " + lengthText(scene.bound.total()) + ", more than the max_error of " +
-                     lengthText(*scene.max_error);
-  for (std::size_t i = 0; i < std::min(kNamed, worst.size()); ++i) text += (i == 0 ? ": " : "; ") + worst[i].second;
-  if (worst.size() > kNamed) text += "; and " + std::to_string(worst.size() - kNamed) + " more";
-  return text;
+  std::vector<std::string> texts;
+  for (const auto& [bound, text] : worst) texts.push_back(text);
+  return "the error bound is " + lengthText(scene.bound.total()) + ", more than the max_error of " +
+         lengthText(*scene.max_error) + (texts.empty() ? "" : ": ") + firstOf(texts, kNamed, "; ", "; and ");
 }
 
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 #include <map>
 #include <utility>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "pair_bound.h"
 #include "scene_totals.h"
@@ -49,8 +50,7 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   }
   std::string text;
   for (const auto& [group, names] : groups) {
-    text += "  " + std::to_string(names.size()) + " " + group.first + (names.size() == 1 ? "" : "s") + ", " +
-            group.second + ": ";
+    text += "  " + counted(names.size(), group.first) + ", " + group.second + ": ";
     for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
     text += names.size() > kNamed ? ", ...\n" : "\n";
   }
@@ -121,9 +121,7 @@ std::string planTable(const Scene& scene) {
   if (!warnings.empty()) text += "notes:\n" + warnings;
   const std::size_t of_objects = pairsOfObjects(scene.bodies);
   if (!scene.left_out.empty() || of_objects > 0) text += "left out:\n" + leftOutLines(scene.left_out);
-  if (of_objects > 0)
-    text +=
-        "  " + std::to_string(of_objects) + (of_objects == 1 ? " pair" : " pairs") + " of two objects of the world\n";
+  if (of_objects > 0) text += "  " + counted(of_objects, "pair") + " of two objects of the world\n";
   return text;
 }
 

@@ -156,7 +156,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       if (reason.empty()) {
         plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
       } else {
-        plan.left_out.push_back({"pair " + a.name + " - " + b.name, reason, i, k});
+        plan.left_out.push_back({"pair " + pairName(a.name, b.name), reason, i, k});
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "interrupt.h"
+#include "model/name_pair.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "read_text.h"
@@ -55,7 +56,7 @@ void printList(const std::string& heading, const std::vector<LearnedPair>& pairs
   std::cout << heading << pairs.size() << "\n";
   for (std::size_t i = 0; i < std::min(kNamed, pairs.size()); ++i) {
     const LearnedPair& pair = pairs[i];
-    std::cout << "  " << pair.link_a << " - " << pair.link_b << (pair.reason.empty() ? "" : ": " + pair.reason) << "\n";
+    std::cout << "  " << pairName(pair.link_a, pair.link_b) << (pair.reason.empty() ? "" : ": " + pair.reason) << "\n";
   }
   if (pairs.size() > kNamed) std::cout << "  and " << pairs.size() - kNamed << " more\n";
 }
@@ -126,7 +127,7 @@ void run(const Arguments& arguments) {
   printReport(pairs);
   if (pairs.unknown.empty()) return;
   std::cerr << "sdf_ccd: " << counted(pairs.unknown.size(), "pair") << " could not be classified, for example "
-            << pairs.unknown.front().link_a << " - " << pairs.unknown.front().link_b << ": "
+            << pairName(pairs.unknown.front().link_a, pairs.unknown.front().link_b) << ": "
             << pairs.unknown.front().reason << std::endl;
   throw PartlyDone();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/number_text.h"
+#include "model/name_pair.h"
 #include "motion/screw_motion.h"
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/status_text.h"
@@ -203,8 +204,7 @@ void MarkerDrawer::drawPair(int id, const PairResult& pair, const CycleContext& 
   markers.markers.push_back(depth);
 
   const double deepest = std::max(states_.pairs()[id].depth, pair.deepest.depth);  // while it is shown
-  const std::string text = cycle.scene.bodies[pair.body_a].name + " - " + cycle.scene.bodies[pair.body_b].name + ": " +
-                           lengthText(deepest) + (seen ? "" : ", between samples");
+  const std::string text = pairName(cycle.scene, pair) + ": " + lengthText(deepest) + (seen ? "" : ", between samples");
   const ros::Time end = cycle.start + ros::Duration(cycle.motion.times.back());
   shown_[id] = {end + ros::Duration(options_.hold), pair.deepest.p_W, text, deepest};
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/number_text.h"
+#include "model/name_pair.h"
 
 namespace sdf_ccd {
 namespace {
@@ -29,17 +30,13 @@ double depthOf(const PairStates& states, Verdict verdict) {
   return depth;
 }
 
-std::string nameOf(const PairResult& pair, const Scene& scene) {
-  return scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
-}
-
 /// The pairs that are uncertain: one by name, and the number of the others.
 std::string uncertainPairs(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
   std::size_t count = 0;
   std::string example;
   for (std::size_t i = 0; i < states.pairs().size(); ++i) {
     if (states.pairs()[i].verdict == Verdict::kUncertain && ++count == 1)
-      example = nameOf(result.pairs[i], cycle.scene);
+      example = pairName(cycle.scene, result.pairs[i]);
   }
   const std::string others = count > 1 ? " and " + std::to_string(count - 1) + " more" : "";
   return wrapped(example.substr(0, kLongestReason) + others, kWidth);
@@ -68,7 +65,7 @@ std::string uncheckedPairs(const PairStates& states, const CycleResult& result, 
     if (states.pairs()[i].verdict != Verdict::kNotChecked) continue;
     const PairResult& pair = result.pairs[i];
     if (++count > 1 || pair.reason.empty()) continue;
-    example = nameOf(pair, cycle.scene) + ": " + pair.reason;
+    example = pairName(cycle.scene, pair) + ": " + pair.reason;
   }
   if (count == 0) return {};
   const std::string total = std::to_string(states.pairs().size());

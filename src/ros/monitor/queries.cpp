@@ -11,6 +11,7 @@
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"
+#include "model/name_pair.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/freed_memory.h"
@@ -245,8 +246,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
         PlannedMotion planned = toPlannedMotion(one, now);
         notes.add(first + i, planned.notes);
         for (const UncheckedPair& pair : planned.unchecked)
-          notes.add(first + i,
-                    scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name + ": " + pair.reason);
+          notes.add(first + i, pairName(scene, pair) + ": " + pair.reason);
         return planned;
       } catch (const std::invalid_argument& error) {
         refuse("motion " + std::to_string(first + i) + ": " + error.what());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/counted.h"
+#include "model/name_pair.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -17,8 +18,7 @@ bool isUnchecked(const PairResult& pair) {
 }
 
 std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
-  const BodyList& bodies = loop.scene().bodies;
-  return bodies[pair.body_a].name + " - " + bodies[pair.body_b].name + ": " + pair.reason;
+  return pairName(loop.scene(), pair) + ": " + pair.reason;
 }
 
 }  // namespace

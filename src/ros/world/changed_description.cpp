@@ -15,7 +15,7 @@ const ChangingScene::Rule* ChangingScene::lastRule(const std::string& a, const s
 }
 
 std::string ChangingScene::textOf(const Rule& rule) {
-  return "update_scene: " + rule.pair.a + " - " + rule.pair.b;
+  return "update_scene: " + pairName(rule.pair.a, rule.pair.b);
 }
 
 /// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;

@@ -13,6 +13,7 @@
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "cycle_report.h"
+#include "model/name_pair.h"
 #include "monitor/over_budget.h"
 #include "monitor_config.h"
 #include "monitor_scene.h"
@@ -135,12 +136,6 @@ void requireChecked(const CycleStatistics& statistics, const Scene& scene, const
   require(std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); }),
           bag + ": nothing could be checked" +
               (why.empty() ? ", as all pairs are left out:\n" + planTable(scene) : ", as " + why));
-}
-
-/// @param pair  of bodies by index.
-template <class Pair>
-std::string pairName(const Scene& scene, const Pair& pair) {
-  return scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
 }
 
 /// "1 pair was", "2 pairs were".

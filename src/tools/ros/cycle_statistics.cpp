@@ -7,6 +7,7 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "model/name_pair.h"
 #include "precision/error_summary.h"
 
 namespace sdf_ccd::tools {
@@ -22,20 +23,13 @@ std::string quantiles(std::vector<double> values, const std::vector<double>& sha
   return text;
 }
 
-std::string nameOf(const std::string& body_a, const std::string& body_b) {
-  return body_a + " - " + body_b;
-}
-
 std::string secondsAfter(const ros::Time& begin, const ros::Time& time) {
   return fixedText((time - begin).toSec(), 3) + " s";
 }
 
 /// A heading, the first items, and the number of those left out.
 std::string list(const std::string& heading, const std::vector<std::string>& items) {
-  std::string text = heading + "\n";
-  for (std::size_t i = 0; i < std::min(kNamed, items.size()); ++i) text += "  " + items[i] + "\n";
-  if (items.size() > kNamed) text += "  and " + std::to_string(items.size() - kNamed) + " more\n";
-  return text;
+  return heading + "\n" + (items.empty() ? "" : "  " + firstOf(items, kNamed, "\n  ", "\n  and ") + "\n");
 }
 
 /// A reason with the parts that differ between pairs and cycles replaced: links' names by *, numbers by #.
@@ -57,7 +51,7 @@ void CycleStatistics::add(const ContactArray& message) {
   late_frames_.insert(message.late_frames.begin(), message.late_frames.end());
   contacts_.add(message);
   for (const PairContact& pair : message.pairs) {
-    Count& count = pairs_[nameOf(pair.body_a, pair.body_b)];
+    Count& count = pairs_[pairName(pair.body_a, pair.body_b)];
     count.in_contact += pair.verdict == PairContact::CONTACT;
     count.uncertain += pair.verdict == PairContact::UNCERTAIN;
     if (pair.verdict == PairContact::NOT_CHECKED) count.addUnchecked(pair.reason, {pair.body_a, pair.body_b});
@@ -161,7 +155,7 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
     // Of a contact that no point of a shell feels, no depth is known.
     const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
     const double depth = is_felt ? contact.deepest.depth : contact.deepest.depth_error;
-    items.push_back(nameOf(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
+    items.push_back(pairName(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
                     durationText((contact.end - contact.begin).toSec()) + (is_felt ? ", " : ", at most ") +
                     lengthText(depth) + " deep" + (contact.seen_at_samples ? "" : ", between samples"));
   }
