@@ -31,10 +31,15 @@ RobotModel::RobotModel(const std::string& urdf_xml, const std::string& source) t
   throwFrom(source, error);
 }
 
-int RobotModel::indexOf(const std::string& link) const {
+int RobotModel::find(const std::string& link) const {
   const auto found = index_.find(link);
-  if (found == index_.end()) throw std::invalid_argument("robot " + urdf_->name_ + " has no link " + link);
-  return found->second;
+  return found == index_.end() ? -1 : found->second;
+}
+
+int RobotModel::indexOf(const std::string& link) const {
+  const int index = find(link);
+  if (index < 0) throw std::invalid_argument("robot " + urdf_->name_ + " has no link " + link);
+  return index;
 }
 
 const urdf::Joint& RobotModel::jointAbove(int link) const {

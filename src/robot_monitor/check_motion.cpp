@@ -147,14 +147,11 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
 
 PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {
   PlannedBodies planned;
-  const std::vector<std::string>& links = robot.links();
   for (const Body& body : scene.bodies) {
-    const auto found = std::find(links.begin(), links.end(), body.frame);
-    const bool is_carried = found != links.end();
-    const int link = is_carried ? static_cast<int>(found - links.begin()) : -1;
+    const int link = robot.find(body.frame);
     planned.bodies.push_back({link, body.X_frame_B, motionBall(body)});
-    planned.missing.push_back(is_carried ? ""
-                                         : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
+    planned.missing.push_back(link >= 0 ? ""
+                                        : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
   }
   return planned;
 }

@@ -31,9 +31,6 @@ class PairSorter {
     for (const AllowedPair& pair : scene.allowed) {
       if (pair.reason == kOutOfReach) out_of_reach_.insert(namePair(pair.body_a, pair.body_b));
     }
-    for (std::size_t link = 0; link < robot.links().size(); ++link) {
-      index_[robot.links()[link]] = static_cast<int>(link);
-    }
   }
 
   /// False if the pair needs no test; it is then added to `pairs`.
@@ -45,7 +42,8 @@ class PairSorter {
       pairs.disabled.push_back({a.name, b.name, "Adjacent"});
     } else if (!a.failure.empty() || !b.failure.empty()) {
       pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
-    } else if (const std::string joint = JointSampler::unboundedBetween(robot_, index_.at(a.name), index_.at(b.name));
+    } else if (const std::string joint =
+                   JointSampler::unboundedBetween(robot_, robot_.find(a.name), robot_.find(b.name));
                !joint.empty()) {
       pairs.unknown.push_back({a.name, b.name, "joint " + joint + " is unbounded"});
     } else if (out_of_reach_.count(names) > 0) {
@@ -70,7 +68,6 @@ class PairSorter {
   }
 
   const RobotModel& robot_;
-  std::map<std::string, int> index_;
   SrdfPairs srdf_;
   std::set<NamePair> out_of_reach_;
 };

@@ -4,7 +4,9 @@
 #include <map>
 #include <memory>
 
+#include "common/counted.h"
 #include "common/number_text.h"
+#include "model/name_pair.h"
 #include "robot/joint_sampler.h"
 #include "sdf_ccd/common/cancel.h"
 #include "state_verdicts.h"
@@ -16,14 +18,12 @@ constexpr std::size_t kNamed = 6;  // at most so many pairs are named in a warni
 
 /// "l_wheel - base (46.3 mm), r_wheel - base (46.3 mm) and 4 more".
 std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
-    const PlannedPair& pair = scene.pairs[static_cast<std::size_t>(pairs[i].pair)];
-    text += (i == 0 ? "" : ", ") + scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name;
-    if (pairs[i].depth > 0.0) text += " (" + lengthText(pairs[i].depth) + ")";
+  std::vector<std::string> texts;
+  for (const OverlappingPair& pair : pairs) {
+    texts.push_back(pairName(scene, scene.pairs[static_cast<std::size_t>(pair.pair)]));
+    if (pair.depth > 0.0) texts.back() += " (" + lengthText(pair.depth) + ")";
   }
-  if (pairs.size() > kNamed) text += " and " + std::to_string(pairs.size() - kNamed) + " more";
-  return text;
+  return firstOf(texts, kNamed);
 }
 
 constexpr double kTouch = 1e-3;  // how close surfaces are that joints hold together [m]
@@ -62,12 +62,9 @@ bool entersIn(const RobotModel& robot, const Scene& scene, std::size_t pair,
 }  // namespace
 
 std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Scene& scene, std::size_t states) {
-  std::map<std::string, int> links;
-  for (std::size_t i = 0; i < robot.links().size(); ++i) links[robot.links()[i]] = static_cast<int>(i);
   const auto linkOf = [&](int body) {
     const Body& of = scene.bodies[static_cast<std::size_t>(body)];
-    const auto found = links.find(of.name);
-    return of.is_world || !of.failure.empty() || found == links.end() ? -1 : found->second;
+    return of.is_world || !of.failure.empty() ? -1 : robot.find(of.name);
   };
   std::vector<std::size_t> tested;
   for (std::size_t p = 0; p < scene.pairs.size(); ++p)
@@ -139,15 +136,15 @@ void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& k
     std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
     reason = always_overlap;
   }
-  const auto count = [](const std::vector<OverlappingPair>& pairs) {
-    return std::to_string(pairs.size()) + (pairs.size() == 1 ? " pair of links" : " pairs of links");
+  const auto list = [&](const std::vector<OverlappingPair>& pairs) {
+    return counted(pairs.size(), "pair") + " of links, " + listOf(pairs, scene);
   };
   if (!always.empty())
-    scene.warnings.push_back("left out, as they " + always_overlap + " (depth at rest): " + count(always) + ", " +
-                             listOf(always, scene) + "; list them in checked_pairs to check them");
+    scene.warnings.push_back("left out, as they " + always_overlap + " (depth at rest): " + list(always) +
+                             "; list them in checked_pairs to check them");
   if (!at_rest.empty())
-    scene.warnings.push_back("overlap where all joints are at rest, and are checked: " + count(at_rest) + ", " +
-                             listOf(at_rest, scene) + "; allowed_pairs leaves them out");
+    scene.warnings.push_back("overlap where all joints are at rest, and are checked: " + list(at_rest) +
+                             "; allowed_pairs leaves them out");
   leaveOut(reasons, scene);
 }
 

@@ -17,10 +17,7 @@ class StateTester {
  public:
   /// @param scene  all of its pairs must be of links.
   StateTester(const RobotModel& robot, const std::shared_ptr<const Scene>& scene) : robot_(robot), monitor_(scene, {}) {
-    for (const Body& body : scene->bodies) {
-      const auto& links = robot.links();
-      links_.push_back(static_cast<std::size_t>(std::find(links.begin(), links.end(), body.name) - links.begin()));
-    }
+    for (const Body& body : scene->bodies) links_.push_back(robot.find(body.name));
     motion_.times = {0.0, kAnyTime};
     motion_.X_WB.assign(links_.size(), {Isometry3d::Identity(), Isometry3d::Identity()});
   }
@@ -29,7 +26,7 @@ class StateTester {
   const std::vector<PairResult>& test(const JointPositions& positions, bool contacts) {
     const std::vector<Isometry3d> X_RL = robot_.forwardKinematics(positions);
     for (std::size_t body = 0; body < links_.size(); ++body)
-      if (links_[body] < X_RL.size()) motion_.X_WB[body].assign(2, X_RL[links_[body]]);
+      if (links_[body] >= 0) motion_.X_WB[body].assign(2, X_RL[static_cast<std::size_t>(links_[body])]);
     monitor_.reset();  // so that the result of a state does not depend on the previous one
     CycleRequest request;
     request.wrenches = false;
@@ -40,7 +37,7 @@ class StateTester {
  private:
   const RobotModel& robot_;
   Monitor monitor_;
-  std::vector<std::size_t> links_;  // per body
+  std::vector<int> links_;  // per body
   CycleMotion motion_;
 };
 

@@ -31,6 +31,9 @@ class RobotModel {
   /// Links in depth-first order, the root first.
   const std::vector<std::string>& links() const { return links_; }
 
+  /// A link's index in links(); −1 if it has none of that name.
+  int find(const std::string& link) const;
+
   /// Parent of a link, by its index in links(); −1 for the root. And the joint between the two, which all links
   /// except the root have.
   int parent(int link) const { return parent_[link]; }

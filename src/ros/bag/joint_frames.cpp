@@ -9,42 +9,30 @@
 namespace sdf_ccd {
 
 JointFrames::JointFrames(std::shared_ptr<const RobotModel> robot, const std::string& prefix)
-    : robot_(std::move(robot)), prefix_(prefix) {
-  const std::vector<std::string>& names = robot_->links();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const urdf::LinkConstSharedPtr link = robot_->urdf().getLink(names[i]);
-    if (!link->parent_joint) continue;
-    const auto parent = std::find(names.begin(), names.end(), link->parent_joint->parent_link_name);
-    links_.push_back({link->parent_joint.get(), i, static_cast<std::size_t>(parent - names.begin())});
-  }
-}
+    : robot_(std::move(robot)), frames_{*robot_, prefix} {}
 
 std::vector<std::string> JointFrames::frames() const {
-  std::vector<std::string> frames;
-  for (const Link& link : links_) frames.push_back(prefix_ + robot_->links()[link.index]);
+  std::vector<std::string> frames = frames_.all();
+  frames.erase(frames.begin());
   return frames;
 }
 
 std::vector<std::string> JointFrames::movableFrames() const {
   std::vector<std::string> frames;
-  for (const Link& link : links_)
-    if (link.joint->type != urdf::Joint::FIXED) frames.push_back(prefix_ + robot_->links()[link.index]);
+  for (int link = 1; link < static_cast<int>(robot_->links().size()); ++link)
+    if (robot_->jointAbove(link).type != urdf::Joint::FIXED) frames.push_back(frames_(link));
   return frames;
 }
 
 bool JointFrames::knows(const std::string& joint) const {
-  return std::any_of(links_.begin(), links_.end(), [&](const Link& link) { return link.joint->name == joint; });
+  return robot_->urdf().joints_.count(joint) > 0;
 }
 
 tf2_msgs::TFMessage JointFrames::fixed(const ros::Time& stamp,
                                        const std::function<bool(const std::string&)>& is_wanted) const {
-  const std::vector<Isometry3d> X_RL = robot_->forwardKinematics({});
-  tf2_msgs::TFMessage message;
-  for (const Link& link : links_) {
-    if (link.joint->type != urdf::Joint::FIXED || !is_wanted(prefix_ + robot_->links()[link.index])) continue;
-    message.transforms.push_back(transform(link, X_RL, stamp));
-  }
-  return message;
+  return transforms({}, stamp, [&](int link, const urdf::Joint& joint) {
+    return joint.type == urdf::Joint::FIXED && is_wanted(frames_(link));
+  });
 }
 
 tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const {
@@ -52,21 +40,23 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
     if (std::isfinite(joints.position[i]) && knows(joints.name[i])) positions[joints.name[i]] = joints.position[i];
   }
-  const std::vector<Isometry3d> X_RL = robot_->forwardKinematics(positions);
-  tf2_msgs::TFMessage message;
-  for (const Link& link : links_) {
-    const urdf::Joint& joint = *link.joint;
-    if (hasPosition(joint) && positions.count(robot_->leader(joint).name) > 0)
-      message.transforms.push_back(transform(link, X_RL, stamp));
-  }
-  return message;
+  return transforms(positions, stamp, [&](int, const urdf::Joint& joint) {
+    return hasPosition(joint) && positions.count(robot_->leader(joint).name) > 0;
+  });
 }
 
-geometry_msgs::TransformStamped JointFrames::transform(const Link& link, const std::vector<Isometry3d>& X_RL,
-                                                       const ros::Time& stamp) const {
-  const Isometry3d X_PL = X_RL[link.parent].inverse() * X_RL[link.index];
-  const std::vector<std::string>& names = robot_->links();
-  return toTransformStamped({stamp, prefix_ + names[link.parent], prefix_ + names[link.index]}, X_PL);
+tf2_msgs::TFMessage JointFrames::transforms(
+    const JointPositions& positions, const ros::Time& stamp,
+    const std::function<bool(int link, const urdf::Joint& joint)>& is_wanted) const {
+  const std::vector<Isometry3d> X_RL = robot_->forwardKinematics(positions);
+  tf2_msgs::TFMessage message;
+  for (int link = 1; link < static_cast<int>(X_RL.size()); ++link) {
+    if (!is_wanted(link, robot_->jointAbove(link))) continue;
+    const int parent = robot_->parent(link);
+    const Isometry3d X_PL = X_RL[parent].inverse() * X_RL[link];
+    message.transforms.push_back(toTransformStamped({stamp, frames_(parent), frames_(link)}, X_PL));
+  }
+  return message;
 }
 
 }  // namespace sdf_ccd

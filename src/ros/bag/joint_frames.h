@@ -7,7 +7,7 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "sdf_ccd/robot/robot_model.h"
+#include "ros/tf/robot_frames.h"
 
 namespace sdf_ccd {
 
@@ -32,17 +32,12 @@ class JointFrames {
   tf2_msgs::TFMessage moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const;
 
  private:
-  struct Link {
-    const urdf::Joint* joint;   // from its parent
-    std::size_t index, parent;  // among the robot's links
-  };
-
-  geometry_msgs::TransformStamped transform(const Link& link, const std::vector<Isometry3d>& X_RL,
-                                            const ros::Time& stamp) const;
+  /// Of the links, but the root, whose joint above is wanted, with the joints at these positions.
+  tf2_msgs::TFMessage transforms(const JointPositions& positions, const ros::Time& stamp,
+                                 const std::function<bool(int link, const urdf::Joint& joint)>& is_wanted) const;
 
   std::shared_ptr<const RobotModel> robot_;
-  std::string prefix_;
-  std::vector<Link> links_;  // all but the root
+  RobotFrames frames_;
 };
 
 }  // namespace sdf_ccd

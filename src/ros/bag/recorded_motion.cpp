@@ -7,6 +7,7 @@
 
 #include <rosbag/view.h>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "robot/joint_kind.h"
 #include "ros/bag/read_bag.h"
@@ -21,25 +22,11 @@ bool isStatic(const std::string& topic) {
   return withoutLeadingSlash(topic) == "tf_static";
 }
 
-template <class Names>
-std::string someOf(const Names& names) {
-  std::string text;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (count++ < kNamed) text += (text.empty() ? "" : ", ") + name;
-  }
-  return text + (count > kNamed ? " and " + std::to_string(count - kNamed) + " more" : "");
-}
-
-std::string prefixOf(const DescribedScene& described) {
-  return described.root_frame.substr(0, described.root_frame.size() - described.robot->root().size());
-}
-
 }  // namespace
 
 RecordedMotion::RecordedMotion(const std::string& file, const DescribedScene& described,
                                const RecordedMotionOptions& options)
-    : file_(file), options_(options), joints_(described.robot, prefixOf(described)), joint_watch_(*described.robot) {
+    : file_(file), options_(options), joints_(described.robot, described.tf_prefix), joint_watch_(*described.robot) {
   for (const auto& [name, joint] : described.robot->urdf().joints_) {
     if (hasPosition(*joint) && !joint->mimic) unnamed_.insert(name);
   }
@@ -101,8 +88,8 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   } else if (links.empty()) {
     throw std::runtime_error(file_ + ": holds no tf, and the robot has no other links whose joints could move");
   } else {
-    requireJointStates("the links are " + someOf(links) +
-                       (tf_topics_.empty() ? ", there is no tf" : ", the tf's frames " + someOf(tf_frames_)));
+    requireJointStates("the links are " + firstOf(links, kNamed) +
+                       (tf_topics_.empty() ? ", there is no tf" : ", the tf's frames " + firstOf(tf_frames_, kNamed)));
   }
   fixed_links_ = joints_.fixed(begin_, [&](const std::string& link) { return !isNamed(link); }).transforms.size();
   const bool is_link = std::find(links.begin(), links.end(), described.fixed_frame) != links.end();
@@ -125,7 +112,7 @@ void RecordedMotion::requireJointStates(const std::string& why) {
   } else if (topics.empty()) {
     throw std::runtime_error(file_ + ": its tf names no link of the robot, and it contains no joint states: " + why);
   } else if (topics.size() > 1) {
-    throw std::runtime_error(file_ + ": holds joint states on " + someOf(topics) + ": choose one of them");
+    throw std::runtime_error(file_ + ": holds joint states on " + firstOf(topics, kNamed) + ": choose one of them");
   }
   std::set<std::string> names;
   rosbag::View view(bag_, rosbag::TopicQuery(topics), ros::TIME_MIN, end_);
@@ -138,7 +125,7 @@ void RecordedMotion::requireJointStates(const std::string& why) {
     }
   }
   throw std::runtime_error(file_ + ": neither tf nor " + topics.front() + " is about the robot: " + why +
-                           ", the joint states' joints " + someOf(names));
+                           ", the joint states' joints " + firstOf(names, kNamed));
 }
 
 std::string RecordedMotion::source() const {
@@ -149,7 +136,7 @@ std::string RecordedMotion::source() const {
 std::vector<std::string> RecordedMotion::warnings() const {
   std::vector<std::string> lines = joint_watch_.lines(source());
   if (!joint_state_topics_.empty() && !unnamed_.empty()) {
-    lines.push_back(source() + " never gives positions of these joints of the robot: " + someOf(unnamed_));
+    lines.push_back(source() + " never gives positions of these joints of the robot: " + firstOf(unnamed_, kNamed));
   }
   return lines;
 }

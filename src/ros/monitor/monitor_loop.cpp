@@ -17,10 +17,8 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   TfHistoryOptions options;
   options.wanted = {withoutLeadingSlash(described.fixed_frame)};
   for (const Body& body : scene.bodies) options.wanted.push_back(withoutLeadingSlash(body.frame));
-  const std::vector<std::string> links = described.robot ? described.robot->links() : std::vector<std::string>();
-  for (const std::string& link : links) {
-    options.wanted.push_back(withoutLeadingSlash(described.tf_prefix + link));
-  }
+  if (described.robot)
+    for (std::string& frame : described.frames().all()) options.wanted.push_back(std::move(frame));
   // A cycle as long as max_cycle may have waited for max_latency. Twice that is kept, so that late transforms can have
   // it checked again for as long afterwards.
   options.keep = std::max(options.keep, 2.0 * (parameters.tf.max_cycle + parameters.tf.max_latency));

@@ -214,10 +214,9 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   motion.times = timesOf(request.poses, request.poses.front().time_from_start, "poses");
   motion.missing = now.missing;
   for (const Isometry3d& X_WB : now.X_WB) motion.X_WB.emplace_back(motion.times.size(), X_WB);
-  const std::vector<std::string>& links = planned.robot.links();
   std::set<std::string> named;
   for (const std::string& link : request.links) {
-    if (std::find(links.begin(), links.end(), link) == links.end()) refuse("the robot has no link " + link);
+    if (planned.robot.find(link) < 0) refuse("the robot has no link " + link);
     if (!named.insert(link).second) refuse("link " + link + " is named twice");
   }
   const std::vector<std::vector<Isometry3d>> X_WL = linkPoses(request);
@@ -225,7 +224,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
     const Carrier& carrier = now.carriers[body];
     if (carrier.link < 0) continue;
-    const auto link = std::find(request.links.begin(), request.links.end(), links[carrier.link]);
+    const auto link = std::find(request.links.begin(), request.links.end(), planned.robot.links()[carrier.link]);
     if (link == request.links.end()) continue;
     const std::vector<Isometry3d>& poses = X_WL[link - request.links.begin()];
     for (std::size_t i = 0; i < poses.size(); ++i) motion.X_WB[body][i] = poses[i] * carrier.X_LB;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/tf/tf_history.h"
+#include "ros/tf/robot_frames.h"
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/planned_motion.h"
@@ -43,14 +43,6 @@ struct PlannedScene {
   const std::vector<UnreachablePair>& unreachable;
   CurrentPoses now;
   MotionSampling sampling;
-};
-
-/// The robot's frames in tf: its links, with tf's prefix.
-struct RobotFrames {
-  const RobotModel& robot;
-  std::string prefix;
-
-  std::string operator()(int link) const { return prefix + robot.links()[link]; }
 };
 
 /// The poses at the newest transform of each frame, whatever its age. The caller sets those of the bodies.

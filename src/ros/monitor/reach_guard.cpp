@@ -23,8 +23,8 @@ ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& describe
       if (known != joints_.end()) continue;
       const urdf::Joint* joint = robot_->urdf().getJoint(slide.joint).get();
       joints_.push_back({slide, joint, {}, ""});
-      frames.push_back(withoutLeadingSlash(described.tf_prefix + joint->parent_link_name));
-      frames.push_back(withoutLeadingSlash(described.tf_prefix + joint->child_link_name));
+      for (const std::string& link : {joint->parent_link_name, joint->child_link_name})
+        frames.push_back(described.frames()(link));
     }
   }
   chains_ = TfChains(frames);

@@ -7,9 +7,8 @@
 
 namespace sdf_ccd {
 
-TorqueOutput::TorqueOutput(const DescribedScene& described) : torques_(*described.robot) {
-  for (const std::string& link : described.robot->links())
-    frames_.push_back(withoutLeadingSlash(described.tf_prefix + link));
+TorqueOutput::TorqueOutput(const DescribedScene& described)
+    : torques_(*described.robot), frames_(described.frames().all()) {
   X_WL_.assign(frames_.size(), Isometry3d::Identity());
   wrenches_.resize(frames_.size());
   is_known_.resize(frames_.size());

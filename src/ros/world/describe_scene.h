@@ -8,6 +8,7 @@
 #include "monitor/scene_cost.h"
 #include "robot/unreachable_pairs.h"
 #include "ros/parameters/parameters.h"
+#include "ros/tf/robot_frames.h"
 
 namespace sdf_ccd {
 
@@ -24,6 +25,8 @@ struct DescribedScene {
   bool leave_out_overlapping = true;         ///< see MonitorParameters
   std::vector<UnreachablePair> unreachable;  ///< left out because of the URDF, also if a rule allows them to touch
   std::vector<std::string> warnings;
+
+  RobotFrames frames() const { return {*robot, tf_prefix}; }
 };
 
 /// Loads package://, file:// and paths from the disk, and http:// and https:// if they are allowed (fetchHttp()).
