@@ -2,25 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include "common/number_text.h"
 
 namespace sdf_ccd {
-
-void validate(const StoppingPromise& promise) {
-  const auto require = [](const char* what, double value, bool is_good) {
-    if (!is_good || !std::isfinite(value))
-      throw std::invalid_argument(std::string("velocity scale: ") + what + " " + numberText(value));
-  };
-  require("max_speed", promise.max_speed, promise.max_speed > 0.0);
-  require("max_acceleration", promise.max_acceleration, promise.max_acceleration >= 0.0);
-  require("deceleration", promise.deceleration, promise.deceleration > 0.0);
-  require("reaction_time", promise.reaction_time, promise.reaction_time >= 0.0);
-  require("period", promise.period, promise.period > 0.0);
-  require("stop_distance", promise.stop_distance, promise.stop_distance >= 0.0);
-  require("max_age", promise.max_age, promise.max_age > 0.0);
-}
 
 double allowedClosing(const ClosingGap& gap, double age, const StoppingPromise& promise) {
   const double a = promise.deceleration, P = promise.period, T = age + promise.reaction_time;

@@ -20,9 +20,6 @@ struct StoppingPromise {
   double max_age = 0.2;        ///< older data counts as unknown [s]
 };
 
-/// @throws std::invalid_argument with the name and value of a parameter that is not valid.
-void validate(const StoppingPromise& promise);
-
 /// The largest closing speed of a gap, from when the robot obeys, at which the gap never becomes narrower than the stop
 /// distance [m/s]; 0: the robot must brake as hard as promised.
 /// @param age  of the gap's data, when the scale is published [s].

@@ -144,15 +144,6 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
 }
 
-TEST(VelocityScale, PromisesAreChecked) {
-  StoppingPromise promise;
-  promise.deceleration = 0.0;
-  EXPECT_THROW(validate(promise), std::invalid_argument);
-  promise = {};
-  promise.stop_distance = std::nan("");
-  EXPECT_THROW(validate(promise), std::invalid_argument);
-}
-
 /// Exact distance of two meshes at their poses, over all pairs of triangles.
 double trueDistance(const TriangleMesh& a, const Isometry3d& X_WA, const TriangleMesh& b, const Isometry3d& X_WB) {
   const auto placed = [](const TriangleMesh& mesh, const Isometry3d& X) {
