@@ -5,6 +5,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include "ros/messages/conversions.h"
+#include "ros/messages/shape_marker.h"
 
 namespace sdf_ccd {
 namespace {
@@ -19,41 +20,28 @@ constexpr double kMarkersOftenUntil = 0.5;  // [s]
 constexpr double kMarkersOften = 0.1;       // [s]
 constexpr double kMarkersLater = 1.0;       // [s]
 
-void setColor(bool fixed, bool plane, std::size_t body, Marker& marker) {
-  // Colours that are easy to tell apart, one per body in turn.
+/// Colours that are easy to tell apart, one per body in turn; grey for fixed ones.
+std_msgs::ColorRGBA colorOf(std::size_t body, bool is_fixed, float alpha) {
   constexpr std::array<std::array<float, 3>, 6> kColors = {{{0.30F, 0.45F, 0.69F},
                                                             {0.87F, 0.52F, 0.32F},
                                                             {0.33F, 0.66F, 0.41F},
                                                             {0.77F, 0.31F, 0.32F},
                                                             {0.51F, 0.45F, 0.70F},
                                                             {0.58F, 0.47F, 0.38F}}};
-  const std::array<float, 3> color = fixed ? std::array<float, 3>{0.7F, 0.7F, 0.7F} : kColors[body % kColors.size()];
-  marker.color.r = color[0];
-  marker.color.g = color[1];
-  marker.color.b = color[2];
-  marker.color.a = plane ? 0.15F : 1.0F;
+  const auto& [r, g, b] = kColors[body % kColors.size()];
+  return is_fixed ? toColor(0.7F, 0.7F, 0.7F, alpha) : toColor(r, g, b, alpha);
 }
 
 Marker toMarker(const SimulationSetup& setup, std::size_t body, const std::string& frame) {
-  Marker marker;
-  marker.header.frame_id = frame;
-  marker.ns = "bodies";
-  marker.id = static_cast<int>(body);
-  marker.action = Marker::ADD;
+  Marker marker = makeMarker(frame, "bodies", static_cast<int>(body), Marker::CUBE);
   marker.frame_locked = true;
-  marker.pose.orientation.w = 1.0;
   const TriangleMesh* mesh = setup.meshes[body].get();
-  setColor(setup.world.bodies[body].fixed, mesh == nullptr, body, marker);
-  if (mesh == nullptr) {  // a half-space, solid below its z = 0
-    marker.type = Marker::CUBE;
+  marker.color = colorOf(body, setup.world.bodies[body].fixed, mesh == nullptr ? 0.15F : 1.0F);
+  if (mesh != nullptr) {
+    setTriangles(*mesh, marker);
+  } else {  // a half-space, solid below its z = 0
     marker.scale = toVector3({kPlaneSize, kPlaneSize, 0.001});
     marker.pose.position.z = -0.0005;
-    return marker;
-  }
-  marker.type = Marker::TRIANGLE_LIST;
-  marker.scale = toVector3(Vector3d::Ones());
-  for (const Vector3i& triangle : mesh->triangles) {
-    for (const int vertex : triangle) marker.points.push_back(toPoint(mesh->vertices[vertex]));
   }
   return marker;
 }

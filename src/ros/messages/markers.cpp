@@ -75,8 +75,7 @@ double MarkerDrawer::letter() const {
 MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now) {
   MarkerArray markers;
   if (deletes_all_) {
-    markers.markers.push_back(marker("", 0, Marker::SPHERE));
-    markers.markers.back().action = Marker::DELETEALL;
+    markers.markers.push_back(deleteAllMarker(fixed_frame_));
     deletes_all_ = false;
   }
   states_.update(result, cycle);
@@ -113,8 +112,7 @@ MarkerArray MarkerDrawer::clear(const std::string& reason) {
   numbers_ = 0;
   states_.clear();
   MarkerArray markers;
-  markers.markers.push_back(marker("", 0, Marker::SPHERE));
-  markers.markers.back().action = Marker::DELETEALL;
+  markers.markers.push_back(deleteAllMarker(fixed_frame_));
   markers.markers.push_back(statusMarker(uncheckedText(reason), Verdict::kNotChecked));
   return markers;
 }

@@ -87,8 +87,7 @@ void PlannedMarkers::drawGhost(std::size_t body, const Isometry3d& X_WB, const s
 MarkerArray PlannedMarkers::draw(const CycleResult& result, const CycleContext& ends,
                                  const std::string& fixed_frame) const {
   MarkerArray markers;
-  markers.markers.push_back(makeMarker(fixed_frame, "", 0, Marker::SPHERE));
-  markers.markers.back().action = Marker::DELETEALL;
+  markers.markers.push_back(deleteAllMarker(fixed_frame));
   if (motion_.times.size() < 2) return markers;
   RobotBox box;
   box.update(result, ends);

@@ -69,6 +69,12 @@ Marker makeMarker(const std::string& frame, const std::string& name, int id, int
   return marker;
 }
 
+Marker deleteAllMarker(const std::string& frame) {
+  Marker marker = makeMarker(frame, "", 0, Marker::SPHERE);
+  marker.action = Marker::DELETEALL;
+  return marker;
+}
+
 void setTriangles(const TriangleMesh& mesh, Marker& marker) {
   marker.type = Marker::TRIANGLE_LIST;
   marker.scale = toVector3(Vector3d::Ones());

@@ -18,6 +18,9 @@ std_msgs::ColorRGBA verdictColor(Verdict verdict, float alpha);
 /// A marker to be added, at its frame's origin. Its time is 0, so that rviz draws it with the latest transforms.
 visualization_msgs::Marker makeMarker(const std::string& frame, const std::string& name, int id, int type);
 
+/// Deletes all markers of a topic.
+visualization_msgs::Marker deleteAllMarker(const std::string& frame);
+
 /// Gives a marker the shape that is checked; half-spaces become a thin square of 4 m. A mesh is sent as its URI if rviz
 /// can load that, else as triangles: a URI is short enough to be sent with every new colour.
 void setShape(const GeometryDescription& geometry, visualization_msgs::Marker& marker);

@@ -201,11 +201,8 @@ void Outputs::draw(const Report& report) {
 
 void Outputs::drawWorld(const CheckedWorld& world) {
   const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(toWorldMarkers(world.description()));
-  if (has_drawn_world_) {  // deletes objects that no longer exist
-    visualization_msgs::Marker all = makeMarker(loop_.fixedFrame(), "", 0, visualization_msgs::Marker::CUBE);
-    all.action = visualization_msgs::Marker::DELETEALL;
-    markers->markers.insert(markers->markers.begin(), all);
-  }
+  if (has_drawn_world_)  // deletes objects that no longer exist
+    markers->markers.insert(markers->markers.begin(), deleteAllMarker(loop_.fixedFrame()));
   has_drawn_world_ = true;
   world_publisher_.publish(markers);
 }
