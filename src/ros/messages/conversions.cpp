@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "ros/tf/unit_rotation.h"
+#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {
@@ -27,15 +27,22 @@ void setPointContact(const ContactPoint& point, const ros::Time& start, PointCon
   message.normal = toVector3(point.normal_W);
 }
 
+template <class Point>
+Isometry3d checkedPose(const Point& p, const geometry_msgs::Quaternion& q) {
+  const std::optional<Isometry3d> pose = poseOf({p.x, p.y, p.z}, {q.w, q.x, q.y, q.z});
+  if (!pose) throw std::invalid_argument("orientation is not a unit quaternion");
+  if (!pose->translation().allFinite()) throw std::invalid_argument("position is not finite");
+  return *pose;
+}
+
 }  // namespace
 
 Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
-  const auto& q = pose.orientation;
-  const std::optional<Quaterniond> rotation = unitRotation({q.w, q.x, q.y, q.z});
-  const Vector3d p = toEigen(pose.position);
-  if (!rotation) throw std::invalid_argument("orientation is not a unit quaternion");
-  if (!p.allFinite()) throw std::invalid_argument("position is not finite");
-  return Eigen::Translation3d(p) * *rotation;
+  return checkedPose(pose.position, pose.orientation);
+}
+
+Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
+  return checkedPose(transform.translation, transform.rotation);
 }
 
 Vector3d toEigen(const geometry_msgs::Point& point) {
@@ -120,11 +127,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.wrench_on_b = toWrench(pair.on_b_W);
   message.origin_a = toPoint(cycle.motion.pose(pair.body_a, pair.span.last).translation());
   message.origin_b = toPoint(cycle.motion.pose(pair.body_b, pair.span.last).translation());
-  message.error_bound = pair.error.total();
-  message.error_field = pair.error.field;
-  message.error_chord = pair.error.chord;
-  message.error_root = pair.error.root;
-  message.error_gap = pair.error.gap;
+  setErrorBound(pair.error, message);
   message.contact_error_bound = pair.contact_error.total();
 }
 

@@ -20,6 +20,7 @@ namespace sdf_ccd {
 
 /// @throws std::invalid_argument if a number is not finite or the orientation is not a unit quaternion.
 Isometry3d toIsometry(const geometry_msgs::Pose& pose);
+Isometry3d toIsometry(const geometry_msgs::Transform& transform);
 
 Vector3d toEigen(const geometry_msgs::Point& point);
 geometry_msgs::Point toPoint(const Vector3d& p);
@@ -45,6 +46,16 @@ struct CycleContext {
 
 /// Whether the pair touches at one of the recorded times.
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
+
+/// Sets the bound and its parts in a message.
+template <class Message>
+void setErrorBound(const ErrorBound& error, Message& message) {
+  message.error_bound = error.total();
+  message.error_field = error.field;
+  message.error_chord = error.chord;
+  message.error_root = error.root;
+  message.error_gap = error.gap;
+}
 
 /// Sets all fields of the message, whose memory is reused; so do all functions named set….
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);

@@ -12,17 +12,20 @@ namespace sdf_ccd {
 
 namespace {
 
+/// Sets what both messages tell of a cycle.
 template <typename Message>
-void setErrorBound(const CycleResult& result, Message& message) {
-  message.error_bound = result.error_bound;
-  message.error_field = result.error.field;
-  message.error_chord = result.error.chord;
-  message.error_root = result.error.root;
-  message.error_gap = result.error.gap;
-}
-
-template <typename Message>
-void setDelays(const TrackedCycle& cycle, Message& message) {
+void setCycle(const MonitorLoop& loop, Message& message) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
+  message.cycle_start = cycle.start;
+  message.complete_until = cycle.complete_until;
+  message.run_time = result.run_time;
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.reason = uncheckedCycle(loop);
+  setErrorBound(result.error, message);
   message.delayed_since = cycle.delayed_since;
   message.contradicted_since = ros::Time();
   message.late_frames.clear();
@@ -100,18 +103,8 @@ CycleContext contextOf(const MonitorLoop& loop) {
 }
 
 void setContactArray(const MonitorLoop& loop, ContactArray& message) {
-  const TrackedCycle& cycle = loop.cycle();
   const CycleResult& result = loop.result();
-  message.header.stamp = cycle.end;
-  message.header.frame_id = loop.fixedFrame();
-  message.scene_version = loop.world()->version();
-  message.cycle_start = cycle.start;
-  message.complete_until = cycle.complete_until;
-  message.run_time = result.run_time;
-  message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.reason = uncheckedCycle(loop);
-  setErrorBound(result, message);
-  setDelays(cycle, message);
+  setCycle(loop, message);
   setPairs(loop, message);
   setContacts(loop, message.contacts);
   message.checked = result.checked;
@@ -150,22 +143,12 @@ void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& mess
 }
 
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
-  const TrackedCycle& cycle = loop.cycle();
   const CycleResult& result = loop.result();
-  message.header.stamp = cycle.end;
-  message.header.frame_id = loop.fixedFrame();
-  message.scene_version = loop.world()->version();
-  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  setCycle(loop, message);
   message.missing = missingBodies(loop);
   for (const std::string& failed : failedBodies(loop.scene())) message.missing.push_back(failed);
-  message.reason = uncheckedCycle(loop);
-  message.cycle_start = cycle.start;
-  message.complete_until = cycle.complete_until;
-  message.run_time = result.run_time;
-  message.latency = secondsBetween(cycle.end, now);
-  setErrorBound(result, message);
+  message.latency = secondsBetween(loop.cycle().end, now);
   message.contact_error_bound = result.contact_error;
-  setDelays(cycle, message);
   setScalars(loop, message);
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;

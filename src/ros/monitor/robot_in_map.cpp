@@ -53,7 +53,7 @@ const Isometry3d* RobotInMap::poseAtStamp(const std::string& frame) {
   if (stamp_.isZero() && span.problem.empty() && !span.is_static) {
     problem = "the map has no stamp";
   } else if (history_.lookup(frame, stamp_, X_WF, problem, max_gap_)) {
-    if (!isTooFar(X_WF)) return &X_W_at_stamp_.emplace(frame, X_WF).first->second;
+    if (isNearOrigin(X_WF.translation())) return &X_W_at_stamp_.emplace(frame, X_WF).first->second;
     problem = tooFar(frame);
   }
   if (span.problem.empty() && !span.is_static && span.last < stamp_) lags_.push_back(secondsBetween(span.last, stamp_));

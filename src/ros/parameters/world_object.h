@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -9,10 +8,9 @@
 #include <vector>
 
 #include "geometry/generated_mesh.h"
-#include "ros/tf/unit_rotation.h"
+#include "ros/tf/valid_pose.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/motion/cycle_motion.h"
 
 namespace sdf_ccd {
 
@@ -26,18 +24,6 @@ struct WorldShape {
   Shape shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };
-
-/// Whether the point can be part of a pose; false for NaN, which lpNorm() may ignore.
-inline bool isNearOrigin(const Vector3d& p) {
-  return (p.array().abs() <= kFarthestPose).all();
-}
-
-/// The pose; none if q is not a unit quaternion.
-inline std::optional<Isometry3d> poseOf(const Vector3d& p, const Quaterniond& q) {
-  const std::optional<Quaterniond> rotation = unitRotation(q);
-  if (!rotation) return std::nullopt;
-  return Isometry3d(Eigen::Translation3d(p) * *rotation);
-}
 
 /// A cone with its tip along z.
 inline WorldShape::Shape coneShape(double radius, double height) {

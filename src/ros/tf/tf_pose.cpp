@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ros/tf/unit_rotation.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {
@@ -31,7 +30,7 @@ TfPose toTfPose(const ros::Time& stamp, const geometry_msgs::Transform& transfor
     pose.problem = "has a transform that is not finite";
   } else if (!rotation) {
     pose.problem = "has a rotation that is no unit quaternion";
-  } else if (!(translation.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+  } else if (!isNearOrigin(translation)) {
     pose.problem = "is more than 1e+08 m from its parent";
   } else {
     pose.rotation = *rotation;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "ros/tf/seconds_between.h"
+#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {
@@ -44,10 +45,6 @@ std::optional<std::size_t> earliestOf(const std::vector<ros::Time>& ends) {
 
 std::string TfTracker::seconds(double duration) {
   return fmt::format("{:.2f} s", duration);
-}
-
-bool isTooFar(const Isometry3d& X_WB) {
-  return !(X_WB.translation().lpNorm<Eigen::Infinity>() <= kFarthestPose);
 }
 
 std::string tooFar(const std::string& frame) {
@@ -339,7 +336,7 @@ void posesAt(const TfHistory& history, const std::vector<TrackedBody>& bodies, c
     missing[body] = of_frame.problem;
     if (!missing[body].empty()) continue;
     X_WB[body] = of_frame.X_WF * bodies[body].X_frame_B;
-    if (isTooFar(X_WB[body])) missing[body] = tooFar(frame);
+    if (!isNearOrigin(X_WB[body].translation())) missing[body] = tooFar(frame);
   }
 }
 

@@ -24,8 +24,7 @@ struct TrackedBody {
 
 std::vector<TrackedBody> trackedBodies(const Scene& scene);
 
-/// Whether a body is too far from the origin to compute with, and the message that says so.
-bool isTooFar(const Isometry3d& X_WB);
+/// Says that a body is too far from the origin to compute with.
 std::string tooFar(const std::string& frame);
 
 /// Poses X_WB of all bodies at a time, 0 for the latest of each. `missing` receives, per body, why its pose is not

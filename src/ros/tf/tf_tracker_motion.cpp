@@ -6,6 +6,7 @@
 
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
+#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {
@@ -212,7 +213,7 @@ void TfTracker::placeStatic(CycleMotion& motion) {
     std::string& missing = motion.missing[body];
     if (missing.empty()) {
       poses_[body] = window_.pose(body, secondsOf(needed_[body], window_.origin()).from) * bodies_[body].X_frame_B;
-      if (isTooFar(poses_[body])) missing = tooFar(frames_[body]);
+      if (!isNearOrigin(poses_[body].translation())) missing = tooFar(frames_[body]);
     }
     motion.X_WB[body].assign(1, poses_[body]);
   }
@@ -229,7 +230,7 @@ void TfTracker::posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vec
     if (known != pose_times_[body] && missing[body].empty()) {
       pose_times_[body] = known;
       poses_[body] = window_.pose(body, known) * bodies_[body].X_frame_B;
-      if (isTooFar(poses_[body])) missing[body] = tooFar(frames_[body]);
+      if (!isNearOrigin(poses_[body].translation())) missing[body] = tooFar(frames_[body]);
     }
     X_WB[body] = poses_[body];
   }
