@@ -117,6 +117,33 @@ std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
   return frame.empty() ? history_.fixedFrame() : frame;
 }
 
+/// Begins a map with another frame or resolution than the last one.
+void LiveMap::begin(const std::string& frame, double resolution, const VoxelMapOptions& options) {
+  map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
+  frame_ = frame;
+  resolution_ = resolution;
+  tiles_.clear();
+  markOutdated();
+  constexpr double kCorner = 0.37;  // √3/2 − 1/2, rounded up: how much farther a voxel's corner is than its sides
+  if (options.padding < kCorner * resolution)
+    ROS_WARN("Map: voxels of %s m that the robot touches may count as obstacles: octomap/padding should be %s m",
+             numberText(resolution).c_str(), numberText(kCorner * resolution).c_str());
+}
+
+void LiveMap::markOutdated() {
+  if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
+}
+
+/// The voxels that the robot fills, according to tf.
+std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, RobotInMap& robot) const {
+  waitForTf(world, robot);
+  if (!robot.problem().empty()) {
+    ROS_WARN_THROTTLE(10.0, "Voxels of the robot itself in a map count as obstacles where its pose is not known: %s",
+                      robot.problem().c_str());
+  }
+  return robotMasks(world, robot.bodies());
+}
+
 void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
@@ -128,42 +155,20 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   VoxelGrid grid(message.resolution, options);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  waitForTf(*world, robot);
-  if (!robot.problem().empty()) {
-    ROS_WARN_THROTTLE(10.0, "Voxels of the robot itself in a map count as obstacles where its pose is not known: %s",
-                      robot.problem().c_str());
-  }
-  const std::vector<VoxelMask> masks = robotMasks(*world, robot.bodies());
+  const std::vector<VoxelMask> masks = masksOf(*world, robot);
   const double read = secondsSince(start);
-  const auto markOutdated = [this] {
-    if (in_scene_ == InScene::kTiles) in_scene_ = InScene::kOther;
-  };
-  if (!map_ || frame != frame_ || message.resolution != resolution_) {
-    map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
-    frame_ = frame;
-    resolution_ = message.resolution;
-    tiles_.clear();
-    markOutdated();
-    constexpr double kCorner = 0.37;  // √3/2 − 1/2, rounded up: how much farther a voxel's corner is than its sides
-    if (options.padding < kCorner * resolution_)
-      ROS_WARN("Map: voxels of %s m that the robot touches may count as obstacles: octomap/padding should be %s m",
-               numberText(resolution_).c_str(), numberText(kCorner * resolution_).c_str());
-  }
+  if (!map_ || frame != frame_ || message.resolution != resolution_) begin(frame, message.resolution, options);
   VoxelMap::Change change;
-  editor_.arena().execute([&, cancel = CancelPoint()] {
-    const CancelScope scope(cancel);
-    change = map_->take(grid, masks);
-  });
+  editor_.arena().run([&] { change = map_->take(grid, masks); });
   for (const std::string& name : change.removed) tiles_.erase(name);
-  const std::size_t made = change.made.size();
   for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
   const double built = secondsSince(start);
-  std::vector<BodyDescription> tiles;
-  tiles.reserve(tiles_.size());
-  for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
   std::uint64_t version = world->version();
-  if (made > 0 || !change.removed.empty() || in_scene_ != InScene::kTiles) {
+  if (!change.made.empty() || !change.removed.empty() || in_scene_ != InScene::kTiles) {
     markOutdated();  // if setMap() fails, the next map tries again
+    std::vector<BodyDescription> tiles;
+    tiles.reserve(tiles_.size());
+    for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
     version = editor_.setMap(std::move(tiles));
     in_scene_ = InScene::kTiles;
   }
@@ -172,7 +177,7 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
       10.0,
       "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
       "%.1f ms (reading %.1f, tiles %.1f)",
-      change.occupied, tiles_.size(), made, change.masked, static_cast<unsigned long>(version),
+      change.occupied, tiles_.size(), change.made.size(), change.masked, static_cast<unsigned long>(version),
       1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
 }
 

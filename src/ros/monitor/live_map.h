@@ -47,6 +47,9 @@ class LiveMap {
   void checkAge();
   void updateMasks();
   void process(const octomap_msgs::Octomap& message, RobotInMap& robot);
+  void begin(const std::string& frame, double resolution, const VoxelMapOptions& options);
+  void markOutdated();
+  std::vector<VoxelMask> masksOf(const CheckedWorld& world, RobotInMap& robot) const;
   void waitForTf(const CheckedWorld& world, RobotInMap& robot) const;
   std::string frameOf(const octomap_msgs::Octomap& message) const;
 

@@ -26,13 +26,49 @@ constexpr std::size_t kPointsPerPiece = 500;
 constexpr std::size_t kMotionsPerPiece = 16;
 constexpr double kLong = 0.05;  // freed memory is returned after answers that take longer [s]
 
-[[noreturn]] void refuseFrames(const std::string& one, const std::string& other) {
-  refuse("the root poses of all motions must be in the same frame, but are in " + one + " and " + other);
-}
-
 void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
   if (given <= limit) return;
   refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(limit) + " are allowed in one request");
+}
+
+std::size_t pointsOf(const QueryMotions::Request& request) {
+  std::size_t points = 0;
+  for (const RobotMotion& motion : request.motions)
+    points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
+  return points;
+}
+
+/// The frame of all root poses; empty if no motion names one.
+std::string rootFrameOf(const QueryMotions::Request& request) {
+  std::string frame;
+  for (const RobotMotion& motion : request.motions) {
+    const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
+    if (!frame.empty() && !of_motion.empty() && of_motion != frame)
+      refuse("the root poses of all motions must be in the same frame, but are in " + frame + " and " + of_motion);
+    if (!of_motion.empty()) frame = of_motion;
+  }
+  return frame;
+}
+
+/// One of the motions as a request of its own.
+QueryMotion::Request requestOf(const QueryMotions::Request& request, std::size_t motion) {
+  QueryMotion::Request one;
+  one.trajectory = request.motions[motion].joint_trajectory;
+  one.multi_dof_trajectory = request.motions[motion].multi_dof_joint_trajectory;
+  one.interpolation = request.interpolation;
+  one.other_joints = request.other_joints;
+  one.other_positions = request.other_positions;
+  one.allow_beyond_limits = request.allow_beyond_limits;
+  return one;
+}
+
+void addVerdict(const MotionVerdict& verdict, const Scene& scene, QueryMotions::Response& response) {
+  const PlannedPair* pair = verdict.pair < 0 ? nullptr : &scene.pairs[static_cast<std::size_t>(verdict.pair)];
+  response.verdicts.push_back(static_cast<std::uint8_t>(verdict.verdict));
+  response.error_bounds.push_back(verdict.error_bound);
+  response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
+  response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
+  response.times.push_back(ros::Duration(verdict.time));
 }
 
 /// Notes on several motions: each text once, with the first motion that it is about. Threads may add at once.
@@ -123,8 +159,7 @@ Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene
       max_age_(parameters.tf.max_latency),
       history_(history),
       limits_(limits),
-      turns_(limits.queries),
-      arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)) {}
+      turns_(limits.queries) {}
 
 void Queries::setWorld(std::shared_ptr<const CheckedWorld> world) {
   const std::lock_guard<std::mutex> lock(world_mutex_);
@@ -180,9 +215,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     markers = std::make_unique<PlannedMarkers>(world->description());
   while (!check.isDone()) {
     const Piece piece(*this, spent);
-    const CancelPoint cancel;
-    arena_.execute([&] {
-      const CancelScope scope(cancel);  // this may run in another thread
+    arena_.run([&] {
       const CycleMotion& motion = check.next();
       if (markers) markers->add(motion);
     });
@@ -210,15 +243,8 @@ void Queries::answer(const QueryMotions::Request& request, QueryMotions::Respons
 void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response) {
   const std::size_t count = request.motions.size();
   requireAtMost(limits_.motions, count, "motions");
-  std::size_t points = 0;
-  std::string frame;  // of all root poses, so that tf is queried once
-  for (const RobotMotion& motion : request.motions) {
-    points += motion.joint_trajectory.points.size() + motion.multi_dof_joint_trajectory.points.size();
-    const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
-    if (!frame.empty() && !of_motion.empty() && of_motion != frame) refuseFrames(frame, of_motion);
-    if (!of_motion.empty()) frame = of_motion;
-  }
-  requireAtMost(limits_.points, points, "points of motions");
+  const std::string frame = rootFrameOf(request);  // one, so that tf is queried once
+  requireAtMost(limits_.points, pointsOf(request), "points of motions");
   const std::shared_ptr<const CheckedWorld> world = this->world();
   response.scene_version = world->version();
   const Scene& scene = world->scene();
@@ -233,17 +259,10 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
       const CancelScope scope(cancel);  // this may run in another thread
-      QueryMotion::Request one;
-      one.trajectory = request.motions[first + i].joint_trajectory;
-      one.multi_dof_trajectory = request.motions[first + i].multi_dof_joint_trajectory;
-      one.interpolation = request.interpolation;
-      one.other_joints = request.other_joints;
-      one.other_positions = request.other_positions;
-      one.allow_beyond_limits = request.allow_beyond_limits;
       PlannedScene now = from_now;
       now.sampling.tolerance = tolerance;
       try {
-        PlannedMotion planned = toPlannedMotion(one, now);
+        PlannedMotion planned = toPlannedMotion(requestOf(request, first + i), now);
         notes.add(first + i, planned.notes);
         for (const UncheckedPair& pair : planned.unchecked)
           notes.add(first + i, pairName(scene, pair) + ": " + pair.reason);
@@ -253,19 +272,11 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       }
     };
     std::vector<MotionVerdict> verdicts;
-    arena_.execute([&] {
-      const CancelScope scope(cancel);
+    arena_.run([&] {
       verdicts = sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(kMotionsPerPiece, count - first),
                                        motionOf, wanted);
     });
-    for (const MotionVerdict& verdict : verdicts) {
-      const PlannedPair* pair = verdict.pair < 0 ? nullptr : &scene.pairs[static_cast<std::size_t>(verdict.pair)];
-      response.verdicts.push_back(static_cast<std::uint8_t>(verdict.verdict));
-      response.error_bounds.push_back(verdict.error_bound);
-      response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
-      response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
-      response.times.push_back(ros::Duration(verdict.time));
-    }
+    for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
   }
   response.message = notes.text();
 }
@@ -306,7 +317,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
       cancel.check();
       const Vector3d p_W = X_WQ * toEigen(request.points[i]);
       if (!p_W.allFinite()) refuse("point " + std::to_string(i) + " is not finite");
-      if (!(p_W.lpNorm<Eigen::Infinity>() <= kFarthestPose)) {
+      if (!isNearOrigin(p_W)) {
         refuse("point " + std::to_string(i) + " is more than " + numberText(kFarthestPose) + " m from the origin");
       }
       const NearestBody nearest = nearestBody(scene, X_WB, p_W);

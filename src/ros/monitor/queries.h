@@ -6,9 +6,9 @@
 #include <string>
 
 #include <ros/publisher.h>
-#include <tbb/task_arena.h>
 
 #include "ros/monitor/planned_motion.h"
+#include "ros/monitor/work_arena.h"
 #include "ros/monitor/work_turns.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
@@ -76,7 +76,7 @@ class Queries {
   QueryLimits limits_;
   WorkTurns turns_;
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
-  tbb::task_arena arena_;
+  WorkArena arena_;
 };
 
 }  // namespace sdf_ccd

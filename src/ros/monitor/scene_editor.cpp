@@ -66,7 +66,6 @@ SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedSce
       files_(parameters.resource_roots, makeResourceLoader(ros::package::getPath, "", parameters.allow_http)),
       wake_(std::move(wake)),
       changed_(std::move(changed)),
-      arena_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / 2)),
       scene_(described, parameters.pairs, parts.loop.world()->description()),
       last_(parts.loop.world()) {}
 
@@ -99,19 +98,10 @@ void SceneEditor::withdraw() {
   handed_over_.reset();
 }
 
-/// Does work on some of the processors, so that the cycles have the others.
-void SceneEditor::inArena(const std::function<void()>& work) {
-  const CancelPoint cancel;
-  arena_.execute([&] {
-    const CancelScope scope(cancel);  // this may run in another thread
-    work();
-  });
-}
-
 std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const CheckedWorld>& world) {
   withdraw();
   auto prepared = std::make_unique<PreparedWorld>();
-  inArena([&] { prepared->loop = parts_.loop.prepare(world); });
+  arena_.run([&] { prepared->loop = parts_.loop.prepare(world); });
   prepared->outputs = parts_.outputs.prepare(*world);
   return prepared;
 }
@@ -132,7 +122,7 @@ bool SceneEditor::handOver(std::unique_ptr<PreparedWorld> prepared) {
 /// @param making  receives the name of the body that is being made: after an exception, of the one that failed.
 std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene, std::string& making) {
   std::shared_ptr<const CheckedWorld> world;
-  inArena([&] {
+  arena_.run([&] {
     SceneDescription description = scene.description(limits_);
     std::vector<UnreachablePair> unreachable = scene.unreachable(description);
     world = std::make_shared<const CheckedWorld>(

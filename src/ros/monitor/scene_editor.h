@@ -6,11 +6,10 @@
 #include <mutex>
 #include <string>
 
-#include <tbb/task_arena.h>
-
 #include "ros/monitor/monitor_loop.h"
 #include "ros/monitor/outputs.h"
 #include "ros/monitor/queries.h"
+#include "ros/monitor/work_arena.h"
 #include "ros/world/changing_scene.h"
 #include "sdf_ccd/UpdateScene.h"
 
@@ -53,7 +52,7 @@ class SceneEditor {
   std::shared_ptr<const CheckedWorld> world();
 
   /// For other work in parallel to the cycles.
-  tbb::task_arena& arena() { return arena_; }
+  WorkArena& arena() { return arena_; }
 
   /// Adopts a version if one is ready. To be called by the thread of the cycles, between two cycles; takes
   /// microseconds.
@@ -64,7 +63,6 @@ class SceneEditor {
   class EditLock;
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
   std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
-  void inArena(const std::function<void()>& work);
   std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world);
   bool handOver(std::unique_ptr<PreparedWorld> prepared);
   bool commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
@@ -79,7 +77,7 @@ class SceneEditor {
   RequestLimits limits_;
   std::function<void()> wake_;
   std::function<void(const CheckedWorld&)> changed_;
-  tbb::task_arena arena_;
+  WorkArena arena_;
 
   std::mutex last_mutex_;
   std::timed_mutex edit_mutex_;
