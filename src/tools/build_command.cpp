@@ -83,8 +83,8 @@ void addBuildCommand(CLI::App& app) {
   command->add_option("--srdf", arguments->srdf, "With --urdf: pairs that need no check");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   arguments->resolution.addTo(*command);
-  command->add_option_function<double>(
-      "--spacing", [arguments](double spacing) { arguments->spacing = spacing; },
+  command->add_option(
+      "--spacing", arguments->spacing,
       "Maximum distance from a surface to a shell point [m]; default two cells, for a robot as the monitor's");
 #ifdef SDF_CCD_WITH_ROS
   command->add_option(

@@ -129,11 +129,8 @@ void addSimulateCommand(CLI::App& app) {
   command->add_option("scene", arguments->scene, "YAML file, as those in config/scenes")->required();
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--integrator", arguments->integrator, "continuous, discrete or implicit; default the scene's");
-  command->add_option_function<double>(
-      "--step", [arguments](double step) { arguments->step = step; }, "Time step [s]; default the scene's");
-  command->add_option_function<double>(
-      "--duration", [arguments](double duration) { arguments->duration = duration; },
-      "Time to simulate [s]; default the scene's");
+  command->add_option("--step", arguments->step, "Time step [s]; default the scene's");
+  command->add_option("--duration", arguments->duration, "Time to simulate [s]; default the scene's");
   command->add_option("--frames", arguments->frames, "Poses written per second; default 30");
   command->callback([arguments] { run(*arguments); });
 }

@@ -110,9 +110,8 @@ void addWorkPrecisionCommand(CLI::App& app) {
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--mesh", arguments->mesh,
                       "Closed mesh that fields and shells are made of; default a lumpy ball of 0.2 m (not for step)");
-  command->add_option_function<int>(
-      "--queries", [arguments](int queries) { arguments->queries = queries; },
-      "Segments or points per setting; default 2000. Fewer for motions of bodies");
+  command->add_option("--queries", arguments->queries,
+                      "Segments or points per setting; default 2000. Fewer for motions of bodies");
   command->add_flag("--quick", arguments->quick, "A fifth of the queries, without the finest settings");
   command->callback([arguments] { run(*arguments); });
 }

@@ -100,9 +100,9 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
   addLines("joint", health_.bad_joints, status);
   status.addf("age [ms]", "%.1f", 1e3 * health_.age);
   status.add("pairs delayed", health_.pairs_delayed);
-  status.add("out of order", health_.out_of_order);
-  status.add("invalid", health_.refused);
-  status.add("dropped (frames of no body)", health_.not_kept);
+  status.add("out of order", health_.ignored.out_of_order);
+  status.add("invalid", health_.ignored.refused);
+  status.add("dropped (frames of no body)", health_.ignored.not_kept);
 }
 
 void Diagnostics::bodies(DiagnosticStatusWrapper& status) const {

@@ -60,19 +60,17 @@ void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static)
 }
 
 void TransformListener::report(MonitorHealth& health) {
-  const long refused = history_.refused(), not_kept = history_.notKept();
-  if (refused > health.refused) {
-    ROS_WARN_THROTTLE(10.0, "%ld invalid transforms were ignored so far; the last one: %s", refused,
-                      history_.refusal().c_str());
+  const TfIgnored ignored = history_.ignored();
+  if (ignored.refused > health.ignored.refused) {
+    ROS_WARN_THROTTLE(10.0, "%ld invalid transforms were ignored so far; the last one: %s", ignored.refused,
+                      ignored.refusal.c_str());
   }
-  if (not_kept > health.not_kept) {
+  if (ignored.not_kept > health.ignored.not_kept) {
     ROS_WARN_THROTTLE(
         10.0, "tf has more frames than the monitor stores: %ld transforms of frames that no body needs were dropped",
-        not_kept);
+        ignored.not_kept);
   }
-  health.refused = refused;
-  health.not_kept = not_kept;
-  health.out_of_order = history_.outOfOrder();
+  health.ignored = ignored;
   health.bad_joints = joint_watch_.lines("joint_states");
 }
 

@@ -71,8 +71,8 @@ void TfHistory::add(const tf2_msgs::TFMessage& message, bool is_static) {
 }
 
 void TfHistory::refuse(const std::string& why) {
-  ++refused_;
-  refusal_ = why;
+  ++ignored_.refused;
+  ignored_.refusal = why;
 }
 
 /// Whether a transform is invalid; it is then counted and ignored.
@@ -118,7 +118,7 @@ void TfHistory::addOne(const geometry_msgs::TransformStamped& transform, const N
   const bool is_added = is_new || tree_.edge(child).is_static != is_static;
   if (is_added && tree_.unfollowed(is_static) >= kMaxUnfollowed[is_static] &&
       (child == TfTree::kNone ? !tree_.followsAll() : !tree_.isFollowed(child))) {
-    ++not_kept_;
+    ++ignored_.not_kept;
     static_dropped_ |= is_static;
     return;
   }
@@ -209,24 +209,11 @@ bool TfHistory::takeJump() {
   return std::exchange(jumped_, false);
 }
 
-long TfHistory::outOfOrder() const {
+TfIgnored TfHistory::ignored() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return counts_.out_of_order;
-}
-
-long TfHistory::refused() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return refused_;
-}
-
-std::string TfHistory::refusal() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return refusal_;
-}
-
-long TfHistory::notKept() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return not_kept_;
+  TfIgnored ignored = ignored_;
+  ignored.out_of_order = counts_.out_of_order;
+  return ignored;
 }
 
 bool TfHistory::takeMissedStatic() {

@@ -15,6 +15,15 @@ namespace sdf_ccd {
 /// Without leading slashes: tf2 strips them on arrival but refuses them in look-ups.
 std::string withoutLeadingSlash(const std::string& frame);
 
+/// Numbers of transforms that were received too late or for nothing.
+struct TfIgnored {
+  long out_of_order = 0;  ///< that arrived after newer ones of the same frame; these are used
+  long not_kept = 0;      ///< whose frames are not followed, and for which there was no room
+  /// Without frame names or with names of more than 256 characters, of a frame in itself, or stamped in the future.
+  long refused = 0;
+  std::string refusal;  ///< reason of the last refusal; empty if there was none
+};
+
 /// Frames and time span that a TfHistory keeps.
 struct TfHistoryOptions {
   std::vector<std::string> wanted;  ///< frames to follow, with all frames above them; empty: every frame
@@ -81,18 +90,7 @@ class TfHistory {
   /// The frames above a frame, the nearest first.
   std::vector<std::string> framesAbove(const std::string& frame) const;
 
-  /// Number of transforms that arrived after newer ones of the same frame.
-  long outOfOrder() const;
-
-  /// Number of transforms that were refused: without frame names or with names of more than 256 characters, of a frame
-  /// in itself, or stamped in the future.
-  long refused() const;
-
-  /// Reason of the last refusal; empty if there was none.
-  std::string refusal() const;
-
-  /// Number of transforms ignored because their frames are not followed and there was no room.
-  long notKept() const;
+  TfIgnored ignored() const;
 
   /// True once after a followed frame has become the child of a frame whose static transform may have been dropped: the
   /// static transforms have to be requested again from their publishers.
@@ -125,11 +123,9 @@ class TfHistory {
   ros::Time clock_;
   ros::Time swept_;  // time at which silent frames were last forgotten
   bool jumped_ = false;
-  long refused_ = 0;
-  long not_kept_ = 0;
+  TfIgnored ignored_;
   bool static_dropped_ = false;  // since takeMissedStatic() last returned true
   bool static_missed_ = false;
-  std::string refusal_;
 };
 
 }  // namespace sdf_ccd

@@ -196,9 +196,8 @@ void run(const Arguments& arguments) {
   MonitorLoop loop(scene, described, parameters);
   const Checked checked = check(motion, parameters, described, loop, files);
   std::vector<std::string> of_motion = motion.warnings();
-  if (const long refused = loop.history().refused(); refused > 0) {
-    of_motion.push_back(std::to_string(refused) + " transforms were refused, the last as " + loop.history().refusal());
-  }
+  if (const TfIgnored ignored = loop.history().ignored(); ignored.refused > 0)
+    of_motion.push_back(std::to_string(ignored.refused) + " transforms were refused, the last as " + ignored.refusal);
   if (!loop.movingFixedFrame().empty()) of_motion.push_back(loop.movingFixedFrame());
   for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
@@ -263,12 +262,10 @@ void addCheckBagCommand(CLI::App& app) {
   command->add_option("--srdf", arguments->config.srdf, "Pairs that need no check");
   command->add_option("--out", arguments->out, "Directory to write to; made if it is missing")->required();
   command->add_option("--config", arguments->config.parameters, "The monitor's parameters, as config/monitor.yaml");
-  command->add_option_function<double>(
-      "--rate", [arguments](double rate) { arguments->config.rate = rate; },
-      "Cycles per second of the bag [Hz]; default as configured, else 30");
-  command->add_option_function<double>(
-      "--max-error", [arguments](double max_error) { arguments->config.max_error = max_error; },
-      "Error bound of verdicts decided by triangles [m], from 1e-5 to 1e-2");
+  command->add_option("--rate", arguments->config.rate,
+                      "Cycles per second of the bag [Hz]; default as configured, else 30");
+  command->add_option("--max-error", arguments->config.max_error,
+                      "Error bound of verdicts decided by triangles [m], from 1e-5 to 1e-2");
   command->add_option("--start", arguments->motion.start, "Start time relative to the bag's beginning [s]; default 0");
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
   command->add_option("--joint-states", arguments->motion.joint_states,

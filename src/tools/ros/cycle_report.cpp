@@ -18,8 +18,9 @@ void CycleReport::add(const ContactArray& message) {
   // Where no cycle runs nothing is checked; where no time passes pairs may still catch up.
   const bool checks = message.checked + message.skipped + message.not_checked + message.postponed > 0;
   if (message.cycle_start == message.header.stamp && !checks) return;
-  statistics_.add(message);
-  cycles_file_.stream() << toRow(toRecord(message));
+  const CycleRecord record = toRecord(message);
+  statistics_.add(message, record);
+  cycles_file_.stream() << toRow(record);
 }
 
 bool CycleReport::commit(const std::string& title) {

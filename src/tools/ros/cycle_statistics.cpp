@@ -44,8 +44,7 @@ std::string kindOf(std::string reason, const std::vector<std::string>& names) {
 
 }  // namespace
 
-void CycleStatistics::add(const ContactArray& message) {
-  const CycleRecord record = toRecord(message);
+void CycleStatistics::add(const ContactArray& message, const CycleRecord& record) {
   if (record.isGap()) return gaps_.push_back(record);
   cycles_.push_back(record);
   late_frames_.insert(message.late_frames.begin(), message.late_frames.end());

@@ -13,7 +13,8 @@ namespace sdf_ccd::tools {
 /// Counts a monitor's results, cycle by cycle, and summarises them in a few lines.
 class CycleStatistics {
  public:
-  void add(const ContactArray& message);
+  /// @param record  toRecord() of the message.
+  void add(const ContactArray& message, const CycleRecord& record);
 
   const std::vector<CycleRecord>& cycles() const { return cycles_; }
 
