@@ -7,8 +7,19 @@
 
 namespace sdf_ccd {
 
+namespace {
+
+std::vector<std::string> framesOf(const JointTorques& torques, const std::vector<std::string>& frames) {
+  std::vector<std::string> needed;
+  for (const int link : torques.links()) needed.push_back(frames[link]);
+  return needed;
+}
+
+}  // namespace
+
 TorqueOutput::TorqueOutput(const DescribedScene& described)
-    : torques_(*described.robot), frames_(described.frames().all()) {
+
+    : torques_(*described.robot), frames_(described.frames().all()), chains_(framesOf(torques_, frames_)) {
   X_WL_.assign(frames_.size(), Isometry3d::Identity());
   wrenches_.resize(frames_.size());
   is_known_.resize(frames_.size());
@@ -34,15 +45,22 @@ boost::shared_ptr<sensor_msgs::JointState> TorqueOutput::toMessage(MonitorLoop& 
   return message;
 }
 
+/// Finds the poses of the links that the torques need, in memory that is reused.
+void TorqueOutput::findLinks(const TfHistory& history, const ros::Time& time) {
+  std::fill(is_known_.begin(), is_known_.end(), 0);
+  parts_.assign(torques_.links().size(), {time, time});
+  history.copy(chains_, parts_, time, window_);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const int link = torques_.links()[i];
+    is_known_[link] = window_.problem(i).empty();
+    if (is_known_[link]) X_WL_[link] = window_.pose(i, 0.0);
+  }
+}
+
 void TorqueOutput::set(MonitorLoop& loop, sensor_msgs::JointState& message) {
   const TrackedCycle& cycle = loop.cycle();
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench());
-  std::fill(is_known_.begin(), is_known_.end(), 0);
-  std::string problem;
-  for (const int link : torques_.links()) {
-    problem.clear();
-    is_known_[link] = loop.history().lookup(frames_[link], cycle.end, X_WL_[link], problem);
-  }
+  findLinks(loop.history(), cycle.end);
   const auto add = [&](int body, const Wrench& wrench) {
     const int link = link_of_body_[body];
     if (link < 0 || wrench.force.isZero(0.0)) return;

@@ -41,11 +41,18 @@ class TorqueOutput {
   void publish(const boost::shared_ptr<sensor_msgs::JointState>& message) { publisher_.publish(message); }
 
  private:
+  void findLinks(const TfHistory& history, const ros::Time& time);
+
   JointTorques torques_;
   std::vector<std::string> frames_;  // per link
   std::vector<int> link_of_body_;    // see linksOf()
   ros::Publisher publisher_;
   MessagePool<sensor_msgs::JointState> messages_;
+
+  // Of the links that the torques need.
+  TfChains chains_;
+  std::vector<TimePart> parts_;
+  TfWindow window_;
 
   std::vector<Isometry3d> X_WL_;  // per link
   std::vector<Wrench> wrenches_;
