@@ -1,7 +1,6 @@
 #include "ros/monitor/planned_motion.h"
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -9,7 +8,6 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "common/refuse.h"
-#include "motion/two_body_motion.h"
 #include "ros/messages/conversions.h"
 #include "ros/monitor/planned_watch.h"
 #include "ros/tf/seconds_between.h"
@@ -35,15 +33,6 @@ std::vector<double> timesOf(const std::vector<Point>& points, const ros::Duratio
     }
   }
   return times;
-}
-
-Isometry3d checkedIsometry(const geometry_msgs::Transform& transform) {
-  geometry_msgs::Pose pose;
-  pose.position.x = transform.translation.x;
-  pose.position.y = transform.translation.y;
-  pose.position.z = transform.translation.z;
-  pose.orientation = transform.rotation;
-  return toIsometry(pose);
 }
 
 void requireSize(std::size_t given, std::size_t wanted, const std::string& what) {
@@ -100,7 +89,7 @@ RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory
     state.X_WR = planned.now.X_WR;
     for (std::size_t k = 0; k < transforms.size(); ++k) {
       const std::string& name = trajectory.joint_names[k];
-      const Isometry3d X = checkedIsometry(transforms[k]);
+      const Isometry3d X = toIsometry(transforms[k]);
       if (name == planned.base_joint || name == planned.robot.root()) {
         state.X_WR = planned.now.X_WM * X;
       } else {
@@ -236,67 +225,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
   return result;
 }
 
-/// Pose of a frame in one above it, at the last time at which its chain from the fixed frame is known.
-/// @return why it is not known; empty if it is.
-std::string poseAbove(const TfHistory& history, const std::string& above, const std::string& frame, Isometry3d& X_AF) {
-  X_AF.setIdentity();
-  if (above == frame) return {};
-  const TfSpan span = history.span(frame);
-  if (!span.problem.empty()) return span.problem;
-  const ros::Time time = span.is_static ? ros::Time() : span.last;
-  Isometry3d X_WA, X_WF;
-  std::string problem;
-  if (!history.lookup(above, time, X_WA, problem) || !history.lookup(frame, time, X_WF, problem)) return problem;
-  X_AF = relativePose(X_WA, X_WF);
-  return {};
-}
-
 }  // namespace
-
-CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene) {
-  const RobotModel& robot = frames.robot;
-  CurrentPoses now;
-  history.lookup(frames(0), ros::Time(), now.X_WR, now.root_missing);
-  std::map<std::string, int> links;
-  for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
-    links[frames(link)] = link;
-    const TfSpan span = history.span(frames(link));
-    const bool moves = span.problem.empty() && !span.is_static;
-    if (moves && (now.oldest.isZero() || span.last < now.oldest)) {
-      now.oldest = span.last;
-      now.oldest_frame = frames(link);
-    }
-    if (link == 0) continue;
-    const std::string& joint = robot.jointAbove(link).name;
-    Isometry3d X_PL;
-    const std::string problem = poseAbove(history, frames(robot.parent(link)), frames(link), X_PL);
-    if (problem.empty()) {
-      now.joints.X_PL[joint] = X_PL;
-    } else {
-      now.joints.missing[joint] = problem;
-    }
-  }
-  now.joints_deviate = doJointsDeviate(robot, now.joints);
-  for (const Body& body : scene.bodies) {
-    Carrier carrier;
-    std::vector<std::string> above = history.framesAbove(body.frame);
-    above.insert(above.begin(), body.frame);
-    const auto frame =
-        std::find_if(above.begin(), above.end(), [&](const auto& name) { return links.count(name) > 0; });
-    Isometry3d X_LF = Isometry3d::Identity();
-    if (frame != above.end() && poseAbove(history, *frame, body.frame, X_LF).empty()) {
-      carrier = {links.at(*frame), X_LF * body.X_frame_B};
-    }
-    now.carriers.push_back(carrier);
-  }
-  return now;
-}
-
-std::string oldTransformsNote(const CurrentPoses& now, const ros::Time& time, double max_age) {
-  const double age = secondsBetween(now.oldest, time);
-  if (now.oldest.isZero() || age <= max_age) return {};
-  return "the newest transform of " + now.oldest_frame + " is " + numberText(age) + " s old";
-}
 
 PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const PlannedScene& planned) {
   if (request.interpolation > QueryMotion::Request::SPLINES) {
