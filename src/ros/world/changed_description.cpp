@@ -42,6 +42,36 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   return allowed.empty() && proved ? kRigidlyJoined : allowed;
 }
 
+/// Whether a body is neither a link nor an object that is as it was at start-up.
+bool ChangingScene::hasChanged(const std::string& body) const {
+  const auto object = objects_.find(body);
+  return object == objects_.end() ? start_up_->link_names.count(body) == 0 : !object->second.is_unchanged;
+}
+
+/// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
+/// checked.
+/// @return their names, if there are rules.
+std::set<NamePair> ChangingScene::keepAllowed(std::vector<AllowedPair>& allowed) const {
+  std::set<NamePair> kept;
+  for (const AllowedPair& pair : start_up_->allowed) {
+    if (hasChanged(pair.body_a) || hasChanged(pair.body_b)) continue;
+    const Rule* rule = lastRule(pair.body_a, pair.body_b);
+    if (rule && !rule->is_allowed && !pair.proved) continue;
+    allowed.push_back(pair);
+    if (rule && pair.proved) {
+      const auto proof = start_up_->proofs.find(namePair(pair.body_a, pair.body_b));
+      std::string& reason = allowed.back().reason;
+      if (rule->is_allowed) {
+        reason = textOf(*rule);
+      } else if (proof != start_up_->proofs.end()) {
+        reason = proof->second;
+      }
+    }
+    if (!rules_.empty()) kept.insert(namePair(pair.body_a, pair.body_b));
+  }
+  return kept;
+}
+
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
@@ -59,32 +89,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   const auto objectOf = [&](std::size_t body) -> const Object* {
     return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];
   };
-  // Pairs that were left out at start-up, of bodies that have not changed since.
-  std::set<std::string> unchanged;
-  for (const BodyDescription& link : start_up_->links) unchanged.insert(link.name);
-  for (const Object* object : ordered)
-    if (object->is_unchanged) unchanged.insert(object->body.name);
-  std::set<NamePair> left_out;
-  for (const AllowedPair& pair : start_up_->allowed) {
-    if (unchanged.count(pair.body_a) == 0 || unchanged.count(pair.body_b) == 0) {
-      const bool are_links =
-          start_up_->link_names.count(pair.body_a) > 0 && start_up_->link_names.count(pair.body_b) > 0;
-      if (!are_links) continue;
-    }
-    const Rule* rule = lastRule(pair.body_a, pair.body_b);
-    if (rule && !rule->is_allowed && !pair.proved) continue;
-    scene.allowed.push_back(pair);
-    if (rule && pair.proved) {
-      const auto proof = start_up_->proofs.find(namePair(pair.body_a, pair.body_b));
-      std::string& reason = scene.allowed.back().reason;
-      if (rule->is_allowed) {
-        reason = textOf(*rule);
-      } else if (proof != start_up_->proofs.end()) {
-        reason = proof->second;
-      }
-    }
-    if (!rules_.empty()) left_out.insert(namePair(pair.body_a, pair.body_b));
-  }
+  const std::set<NamePair> left_out = keepAllowed(scene.allowed);
   const auto moving = static_cast<std::size_t>(std::count_if(
       scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
   if (moving * scene.bodies.size() > limits.pairs)
@@ -115,10 +120,6 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
 std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
   std::map<std::string, int> indices;
   for (std::size_t b = 0; b < description.bodies.size(); ++b) indices[description.bodies[b].name] = static_cast<int>(b);
-  const auto hasChanged = [&](const std::string& name) {
-    const auto object = objects_.find(name);
-    return object == objects_.end() ? start_up_->link_names.count(name) == 0 : !object->second.is_unchanged;
-  };
   const auto indexOf = [&](const std::string& name) {
     const auto found = indices.find(name);
     return hasChanged(name) || found == indices.end() ? -1 : found->second;

@@ -89,6 +89,8 @@ class ChangingScene {
   static std::string textOf(const Rule& rule);
   const Rule* lastRule(const std::string& a, const std::string& b) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
+  bool hasChanged(const std::string& body) const;
+  std::set<NamePair> keepAllowed(std::vector<AllowedPair>& allowed) const;
 
   std::shared_ptr<const StartUp> start_up_;
   std::map<std::string, Object> objects_;
