@@ -17,6 +17,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "storage/descriptor.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -43,10 +45,8 @@ void closeAllAbove(int highest) {
 }
 
 void preferToDie() {
-  const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
-  if (file < 0) return;
-  [[maybe_unused]] const ssize_t written = ::write(file, "1000", 4);
-  ::close(file);
+  const Descriptor file(::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC));
+  if (file.isOpen()) writeAll(file.number(), "1000", 4);
 }
 
 #if defined(__x86_64__)

@@ -16,6 +16,7 @@
 #include "import/read_answer.h"
 #include "parse_mesh.h"
 #include "parse_octomap.h"
+#include "storage/descriptor.h"
 
 namespace sdf_ccd {
 namespace {
@@ -25,14 +26,7 @@ constexpr std::size_t kMaxReason = 1000;
 constexpr int kMemoryPiece = 8 << 20;  // bytes
 
 void send(const void* from, std::size_t size) {
-  const char* bytes = static_cast<const char*>(from);
-  while (size > 0) {
-    const ssize_t count = ::write(STDOUT_FILENO, bytes, size);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) ::_exit(kExitNoHost);
-    bytes += count;
-    size -= static_cast<std::size_t>(count);
-  }
+  if (!writeAll(STDOUT_FILENO, from, size)) ::_exit(kExitNoHost);
 }
 
 void sendReason(std::string reason) {

@@ -13,10 +13,10 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <tbb/parallel_for.h>
 #include <unistd.h>
-#include <xxhash.h>
 
+#include "storage/checksum.h"
+#include "storage/descriptor.h"
 #include "storage/temporary_file.h"
 
 namespace sdf_ccd {
@@ -60,71 +60,16 @@ std::size_t aligned(std::size_t offset) {
   throw std::runtime_error(path + ": " + what);
 }
 
-/// XXH64 of the XXH64 of each piece, so that pieces can be read at the same time. Before version 0.8, which
-/// Ubuntu 20.04 does not have, the faster XXH3 was not final.
-class Checksum {
- public:
-  /// @param piece  called with (from, bytes) for each piece; returns its data.
-  template <class Piece>
-  static std::uint64_t of(std::size_t bytes, Piece piece) {
-    std::vector<std::uint64_t> pieces((bytes + kPiece - 1) / kPiece);
-    tbb::parallel_for(std::size_t{0}, pieces.size(), [&](std::size_t i) {
-      const std::size_t from = i * kPiece, count = std::min(kPiece, bytes - from);
-      pieces[i] = XXH64(piece(from, count), count, 0);
-    });
-    return of(pieces);
-  }
-
-  Checksum() : state_(XXH64_createState(), &XXH64_freeState) { XXH64_reset(state_.get(), 0); }
-
-  void add(const void* data, std::size_t bytes) {
-    for (const char* from = static_cast<const char*>(data); bytes > 0;) {
-      const std::size_t part = std::min(bytes, kPiece - in_piece_);
-      XXH64_update(state_.get(), from, part);
-      from += part;
-      bytes -= part;
-      in_piece_ += part;
-      if (in_piece_ == kPiece) endPiece();
-    }
-  }
-  std::uint64_t digest() {
-    if (in_piece_ > 0) endPiece();
-    return of(pieces_);
-  }
-
- private:
-  static constexpr std::size_t kPiece = std::size_t{1} << 20;
-
-  static std::uint64_t of(const std::vector<std::uint64_t>& pieces) {
-    return XXH64(pieces.data(), pieces.size() * sizeof(std::uint64_t), 0);
-  }
-  void endPiece() {
-    pieces_.push_back(XXH64_digest(state_.get()));
-    XXH64_reset(state_.get(), 0);
-    in_piece_ = 0;
-  }
-
-  std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state_;
-  std::vector<std::uint64_t> pieces_;
-  std::size_t in_piece_ = 0;
-};
-
 /// Opens a file to read: a regular one, so that reading cannot block for ever.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path)
       : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    if (descriptor_ < 0) fail(path, std::strerror(errno));
+    if (!descriptor_.isOpen()) fail(path, std::strerror(errno));
     struct stat status {};
-    if (fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) {
-      close(descriptor_);
-      fail(path, "not a regular file");
-    }
+    if (fstat(descriptor_.number(), &status) != 0 || !S_ISREG(status.st_mode)) fail(path, "not a regular file");
     bytes_ = static_cast<std::size_t>(status.st_size);
   }
-  ~OpenFile() { close(descriptor_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
 
   std::size_t bytes() const { return bytes_; }
 
@@ -149,7 +94,7 @@ class OpenFile {
  private:
   void read(char* to, std::size_t bytes, std::size_t offset) const {
     while (bytes > 0) {
-      const ssize_t n = pread(descriptor_, to, bytes, static_cast<off_t>(offset));
+      const ssize_t n = pread(descriptor_.number(), to, bytes, static_cast<off_t>(offset));
       if (n < 0 && errno == EINTR) continue;
       if (n < 0) fail(path_, std::string("cannot read: ") + std::strerror(errno));
       if (n == 0) fail(path_, "truncated while it was read");
@@ -160,7 +105,7 @@ class OpenFile {
   }
 
   std::string path_;
-  int descriptor_;
+  Descriptor descriptor_;
   std::size_t bytes_ = 0;
 };
 
@@ -205,29 +150,26 @@ std::vector<FileSection> sectionsOf(const std::string& path, const Header& heade
   return sections;
 }
 
+[[noreturn]] void failToWrite(const std::string& path, int error) {
+  fail(path, std::string("cannot write: ") + std::strerror(error));
+}
+
 /// A file without a name until it is complete, so that it disappears if the process ends before.
 class NewFile {
  public:
   explicit NewFile(const std::string& path) try : path_(path), file_(path) {
   } catch (const std::system_error& error) {
-    fail(path, "cannot write: " + error.code().message());
+    failToWrite(path, error.code().value());
   }
   void write(const void* data, std::size_t bytes) {
-    const char* from = static_cast<const char*>(data);
-    while (bytes > 0) {
-      const ssize_t n = ::write(file_.descriptor(), from, bytes);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
-      from += n;
-      bytes -= static_cast<std::size_t>(n);
-    }
+    if (!writeAll(file_.descriptor(), data, bytes)) failToWrite(path_, errno);
   }
   void place() {
-    if (fsync(file_.descriptor()) != 0) fail(path_, std::string("cannot write: ") + std::strerror(errno));
+    if (fsync(file_.descriptor()) != 0) failToWrite(path_, errno);
     try {
       file_.place();
     } catch (const std::system_error& error) {
-      fail(path_, "cannot write: " + error.code().message());
+      failToWrite(path_, error.code().value());
     }
   }
 

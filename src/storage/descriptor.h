@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstddef>
 #include <utility>
 
 namespace sdf_ccd {
@@ -27,5 +29,17 @@ class Descriptor {
  private:
   int number_;
 };
+
+/// Writes all bytes. @return false, with errno, if that fails.
+inline bool writeAll(int descriptor, const void* data, std::size_t bytes) {
+  for (const char* from = static_cast<const char*>(data); bytes > 0;) {
+    const ssize_t count = ::write(descriptor, from, bytes);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    from += count;
+    bytes -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
 
 }  // namespace sdf_ccd

@@ -16,6 +16,7 @@
 #include "cache_directory.h"
 #include "common/number_text.h"
 #include "sdf_ccd/common/cancel.h"
+#include "storage/descriptor.h"
 
 namespace sdf_ccd {
 namespace {
@@ -29,23 +30,10 @@ class FileLock {
   /// @throws std::runtime_error if the lock is not obtained, or not in time; Cancelled.
   FileLock(const std::string& path, double seconds)
       : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600)) {
-    if (descriptor_ < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
-    try {
-      wait(path, seconds);
-    } catch (...) {
-      close(descriptor_);
-      throw;
-    }
-  }
-  ~FileLock() { close(descriptor_); }
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
-
- private:
-  /// Polls, as a blocking call could not be cancelled.
-  void wait(const std::string& path, double seconds) const {
+    if (!descriptor_.isOpen()) throw std::runtime_error(path + ": " + std::strerror(errno));
+    // Polls, as a blocking call could not be cancelled.
     const auto start = std::chrono::steady_clock::now();
-    while (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    while (flock(descriptor_.number(), LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK && errno != EINTR) {
         throw std::runtime_error(path + ": cannot lock: " + std::strerror(errno));
       }
@@ -57,7 +45,8 @@ class FileLock {
     }
   }
 
-  int descriptor_;
+ private:
+  Descriptor descriptor_;
 };
 
 }  // namespace

@@ -27,29 +27,24 @@ std::string nameBeside(const std::string& target, int number) {
 
 TemporaryFile::TemporaryFile(const std::string& target) : target_(target) {
   const std::string directory = std::filesystem::path(target).parent_path().string();
-  descriptor_ = ::open(directory.empty() ? "." : directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
-  if (descriptor_ >= 0) {
-    path_ = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
-    if (::access(path_.c_str(), W_OK) != 0) {  // no /proc, as in some containers
-      ::close(descriptor_);
-      descriptor_ = -1;
-    }
-  }
-  if (descriptor_ < 0) openNamed();
+  descriptor_ = Descriptor(::open(directory.empty() ? "." : directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode));
+  path_ = "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor());
+  // There is no /proc in some containers.
+  if (!descriptor_.isOpen() || ::access(path_.c_str(), W_OK) != 0) openNamed();
 }
 
 TemporaryFile::~TemporaryFile() {
   if (!name_.empty()) std::remove(name_.c_str());
-  ::close(descriptor_);
 }
 
 void TemporaryFile::openNamed() {
+  descriptor_.close();
   errno = EEXIST;
-  for (int i = 0; i < kMaxNames && descriptor_ < 0 && errno == EEXIST; ++i) {
+  for (int i = 0; i < kMaxNames && !descriptor_.isOpen() && errno == EEXIST; ++i) {
     path_ = nameBeside(target_, i);
-    descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+    descriptor_ = Descriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode));
   }
-  if (descriptor_ < 0) fail();
+  if (!descriptor_.isOpen()) fail();
   name_ = path_;
 }
 

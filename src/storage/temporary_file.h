@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "storage/descriptor.h"
+
 namespace sdf_ccd {
 
 /// A file that is written before it gets its name. It has none until then, so that whatever ends the program leaves
@@ -20,7 +22,7 @@ class TemporaryFile {
   const std::string& path() const { return path_; }
 
   /// The file itself, open for writing.
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return descriptor_.number(); }
 
   /// Gives the file its target's name, replacing an existing file. All writers must have closed it.
   /// @throws std::system_error if that fails.
@@ -33,7 +35,7 @@ class TemporaryFile {
   std::string target_;
   std::string path_;
   std::string name_;  // beside the target; empty if it has none
-  int descriptor_ = -1;
+  Descriptor descriptor_;
 };
 
 }  // namespace sdf_ccd
