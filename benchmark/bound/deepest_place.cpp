@@ -48,10 +48,7 @@ class Search {
  private:
   /// Distance [m] of p from the nearest triangle of another point.
   double distance(const Place& place, const Vector3d& p) const {
-    const TriangleMesh& mesh = mesh_.mesh();
-    const Vector3i& corners = mesh.triangles[place.triangle];
-    const auto corner = [&](int k) -> const Vector3d& { return mesh.vertices[corners[k]]; };
-    return (closestOnTriangle(corner(0), corner(1), corner(2), p) - p).norm();
+    return (closestOnTriangle(cornersOf(mesh_.mesh(), place.triangle), p) - p).norm();
   }
 
   const precision::ExactSurface& mesh_;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/infinity.h"
+
 namespace sdf_ccd {
 
 /// Finds the lowest value of a function of s from values met in increasing order of s.
@@ -47,7 +49,7 @@ class Deepest {
  private:
   struct Value {
     double s = std::numeric_limits<double>::quiet_NaN();
-    double value = std::numeric_limits<double>::infinity();
+    double value = kInfinity;
     bool known() const { return !std::isnan(s); }
   };
   Value best_, previous_, left_, right_;

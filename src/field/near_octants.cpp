@@ -40,15 +40,15 @@ SDF_CCD_INLINE bool mayBeNearest(double distance, const Vector3d& displacement, 
 
 /// Lists the triangles of `around` that may be closest to a point of an octant, without the one nearest to its centre.
 /// Returns the list's end.
-SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const DisplacementLanes* ways, int octant,
+SDF_CCD_LANES std::int32_t* listNear(const NearTriangles& around, const DisplacementLanes* displacements, int octant,
                                      int nearest, double max_distance, const PointLanes::Lane& at_corners,
                                      std::int32_t* list) {
   const double side = 0.5 * around.cube().side, max_distance2 = max_distance * max_distance;
   for (std::size_t i = 0; i < around.size(); ++i) {
-    const double distance2 = ways[i].distance2[octant];
+    const double distance2 = displacements[i].distance2[octant];
     if (distance2 > max_distance2 || around.triangle(i) == nearest) continue;
     const double distance = std::sqrt(distance2);
-    if (mayBeNearest(distance, ways[i].at(octant), distance, side, at_corners)) *list++ = around.triangle(i);
+    if (mayBeNearest(distance, displacements[i].at(octant), distance, side, at_corners)) *list++ = around.triangle(i);
   }
   return list;
 }
@@ -83,18 +83,19 @@ NearCube::NearCube(const SurfaceIndex& surface, const SpaceCube& cube, const Sig
   near_ = {surface, cube, nearest.distance, ids_.data(), ids_.size()};
 }
 
-NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(around.size()), ids_(around.size()) {
-  DisplacementLanes* const ways = ways_.get();
+NearOctants::NearOctants(const NearTriangles& around)
+    : around_(around), displacements_(around.size()), ids_(around.size()) {
+  DisplacementLanes* const displacements = displacements_.get();
   PointLanes centers;
   for (int k = 0; k < 8; ++k) centers.set(k, around_.cube().octant(k).center);
   PointLanes::Lane best2;
   best2.fill(kInfinity);
   std::array<std::size_t, 8> best{};
   for (std::size_t i = 0; i < around_.size(); ++i) {
-    around_.surface().ways(around_.triangle(i), centers, ways[i]);
+    around_.surface().displacements(around_.triangle(i), centers, displacements[i]);
     for (int k = 0; k < 8; ++k) {
-      if (ways[i].distance2[k] < best2[k]) {
-        best2[k] = ways[i].distance2[k];
+      if (displacements[i].distance2[k] < best2[k]) {
+        best2[k] = displacements[i].distance2[k];
         best[k] = i;
       }
     }
@@ -106,18 +107,18 @@ NearOctants::NearOctants(const NearTriangles& around) : around_(around), ways_(a
 }
 
 int NearOctants::sign(int k, std::size_t nearest) const {
-  const DisplacementLanes* const ways = ways_.get();
+  const DisplacementLanes* const displacements = displacements_.get();
   const auto sideOf = [](double along) { return along < 0.0 ? -1 : 1; };
   const DirectionCone& cone = around_.gradientCone();
-  if (cone.sine < 1.0) return sideOf(ways[nearest].at(k).dot(cone.axis));
+  if (cone.sine < 1.0) return sideOf(displacements[nearest].at(k).dot(cone.axis));
   // As in NearTriangles::signedDistance().
-  const double best2 = ways[nearest].distance2[k], tie2 = around_.surface().tie2(best2);
+  const double best2 = displacements[nearest].distance2[k], tie2 = around_.surface().tie2(best2);
   int agreed = 0;
   bool agree = true;
   for (std::size_t i = 0; i < around_.size() && agree; ++i) {
-    if (ways[i].distance2[k] > tie2) continue;
+    if (displacements[i].distance2[k] > tie2) continue;
     const SurfaceIndex::Face& face = around_.surface().face(around_.triangle(i));
-    const int side = face.separates ? sideOf(ways[i].at(k).dot(face.normal)) : 0;
+    const int side = face.separates ? sideOf(displacements[i].at(k).dot(face.normal)) : 0;
     agree = side != 0 && (agreed == 0 || side == agreed);
     agreed = side;
   }
@@ -132,7 +133,8 @@ const NearTriangles& NearOctants::operator[](int k) {
   const SpaceCube octant = around_.cube().octant(k);
   const double max_distance = reach(around_.surface(), octant, distances_[k]);
   const PointLanes::Lane at_corners = distancesAtCorners(around_.surface(), nearest_[k], octant, max_distance);
-  const std::int32_t* const last = listNear(around_, ways_.get(), k, nearest_[k], max_distance, at_corners, first + 1);
+  const std::int32_t* const last =
+      listNear(around_, displacements_.get(), k, nearest_[k], max_distance, at_corners, first + 1);
   near = {around_.surface(), octant, distances_[k], first, static_cast<std::size_t>(last - first)};
   return near;
 }

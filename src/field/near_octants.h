@@ -56,9 +56,9 @@ class NearOctants {
   };
 
   const NearTriangles& around_;
-  Room<DisplacementLanes, 1> ways_;      ///< per triangle: displacements from it to the octants' centres
-  Room<std::int32_t, 8> ids_;            ///< per octant: a list with room for all triangles
-  std::array<std::int32_t, 8> nearest_;  ///< the triangle nearest to each octant's centre
+  Room<DisplacementLanes, 1> displacements_;  ///< per triangle: displacements from it to the octants' centres
+  Room<std::int32_t, 8> ids_;                 ///< per octant: a list with room for all triangles
+  std::array<std::int32_t, 8> nearest_;       ///< the triangle nearest to each octant's centre
   std::array<double, 8> distances_;
   std::array<NearTriangles, 8> near_;
 };

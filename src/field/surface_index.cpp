@@ -9,12 +9,10 @@ SurfaceIndex::SurfaceIndex(Solid solid) : exact_(std::move(solid)) {
   faces_.reserve(mesh.triangles.size());
   flat_.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3i& t = mesh.triangles[i];
-    const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    triangles_.emplace_back(a, b, c);
-    faces_.push_back(
-        {areaNormal(mesh, static_cast<int>(i)).normalized(), separates[i] != 0, triangles_.back().sliver()});
-    flat_.emplace_back(a, b, c);
+    const Corners corners = cornersOf(mesh, static_cast<int>(i));
+    triangles_.emplace_back(corners);
+    faces_.push_back({areaNormal(corners).normalized(), separates[i] != 0, triangles_.back().sliver()});
+    flat_.emplace_back(corners);
   }
 }
 
@@ -28,14 +26,14 @@ void SurfaceIndex::offer(int i, const Vector3d& axis, const PointLanes& points, 
   }
 }
 
-void SurfaceIndex::ways(int i, const PointLanes& points, DisplacementLanes& ways) const {
-  if (!face(i).sliver) return sdf_ccd::ways(flat_[static_cast<std::size_t>(i)], points, ways);
+void SurfaceIndex::displacements(int i, const PointLanes& points, DisplacementLanes& found) const {
+  if (!face(i).sliver) return sdf_ccd::displacements(flat_[static_cast<std::size_t>(i)], points, found);
   for (int k = 0; k < PointLanes::kCount; ++k) {
     const Vector3d p = points.at(k), displacement = p - triangle(i).closest(p);
-    ways.distance2[k] = displacement.squaredNorm();
-    ways.x[k] = displacement.x();
-    ways.y[k] = displacement.y();
-    ways.z[k] = displacement.z();
+    found.distance2[k] = displacement.squaredNorm();
+    found.x[k] = displacement.x();
+    found.y[k] = displacement.y();
+    found.z[k] = displacement.z();
   }
 }
 

@@ -34,7 +34,7 @@ class SurfaceIndex {
 
   /// As the functions of triangle_lanes.h, but for slivers too.
   void offer(int i, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest) const;
-  void ways(int i, const PointLanes& points, DisplacementLanes& ways) const;
+  void displacements(int i, const PointLanes& points, DisplacementLanes& found) const;
 
  private:
   /// Relative rounding of squared distances, which is largest for slivers. A false tie costs little: if the triangles

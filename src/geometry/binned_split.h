@@ -1,20 +1,15 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "common/infinity.h"
+#include "geometry/box_measures.h"
 
 namespace sdf_ccd {
 
 constexpr int kBins = 16;
 /// At greater depths, ranges are split in half regardless of cost: the depth stays below kHeuristicDepth + 31.
 constexpr int kHeuristicDepth = 64;
-
-inline double halfArea(const AlignedBox3d& box) {
-  const Vector3d s = box.sizes();
-  return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
-}
 
 /// Boxes and counts of the elements of a range in each of kBins equal parts of its extent.
 struct Bins {
@@ -33,7 +28,7 @@ struct Bins {
       cost_above[bin] = count > 0 ? count * halfArea(box) : 0.0;
     }
     const int all = count + counts[0];
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     int best = 0;
     box.setEmpty();
     count = 0;

@@ -21,7 +21,7 @@ struct Moments {
   Matrix3d second = Matrix3d::Zero();
 
   void add(const Corners& t) {
-    const double area2 = (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    const double area2 = areaNormal(t).norm();
     const Vector3d sum = t[0] + t[1] + t[2];
     area += area2;
     first += area2 / 3.0 * sum;
@@ -37,19 +37,12 @@ Axes axesOf(const Corners& t) {
     if (edge.squaredNorm() > along.squaredNorm()) along = edge;
   if (!(along.squaredNorm() > 0.0)) return {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   along.normalize();
-  Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  Vector3d normal = areaNormal(t);
   normal -= normal.dot(along) * along;
   if (!(normal.squaredNorm() > 0.0)) normal = along.unitOrthogonal();
   normal.normalize();
   return {normal, normal.cross(along).normalized(), along};
 }
-
-struct Extent {
-  Vector3d low, high;
-
-  Vector3d sizes() const { return high - low; }
-  double halfArea() const { return sdf_ccd::halfArea({low, high}); }
-};
 
 }  // namespace
 
@@ -60,8 +53,7 @@ class BoxTree::Builder {
 
   void build() {
     const int count = static_cast<int>(tree_.triangles_.size());
-    for (const RoundedTriangle& t : tree_.triangles_)
-      centers_.push_back((t.corners[0] + t.corners[1] + t.corners[2]) / 3.0);
+    for (const RoundedTriangle& t : tree_.triangles_) centers_.push_back(centroid(t.corners));
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), 0);
     AlignedBox3d all;
@@ -96,16 +88,14 @@ class BoxTree::Builder {
 
   const RoundedTriangle& at(int i) const { return tree_.triangles_[order_[i]]; }
 
-  Extent extent(const Range& range, const Axes& axes) const {
-    Extent e{Vector3d::Constant(1e300), Vector3d::Constant(-1e300)};
+  AlignedBox3d extent(const Range& range, const Axes& axes) const {
+    AlignedBox3d box;
     for (int i = range.begin; i < range.end; ++i)
       for (const Vector3d& p : at(i).corners) {
         const Vector3d q = p - tree_.origin_;
-        const Vector3d x(axes[0].dot(q), axes[1].dot(q), axes[2].dot(q));
-        e.low = e.low.cwiseMin(x);
-        e.high = e.high.cwiseMax(x);
+        box.extend(Vector3d(axes[0].dot(q), axes[1].dot(q), axes[2].dot(q)));
       }
-    return e;
+    return box;
   }
 
   Axes mainAxes(const Range& range) const {
@@ -123,7 +113,7 @@ class BoxTree::Builder {
     const Axes main = {solver.eigenvectors().col(0).normalized(), solver.eigenvectors().col(1).normalized(),
                        solver.eigenvectors().col(0).cross(solver.eigenvectors().col(1)).normalized()};
     const bool sound = main[0].allFinite() && main[1].allFinite() && main[2].allFinite();
-    if (sound && extent(range, main).halfArea() < extent(range, axes).halfArea()) axes = main;
+    if (sound && halfArea(extent(range, main)) < halfArea(extent(range, axes))) axes = main;
     return axes;
   }
 
@@ -148,12 +138,10 @@ class BoxTree::Builder {
 
   void setBox(const Range& range, int lane, Node& node) const {
     Axes axes = mainAxes(range);
-    Extent e = extent(range, axes);
     int flattest;
-    e.sizes().minCoeff(&flattest);
+    extent(range, axes).sizes().minCoeff(&flattest);
     std::swap(axes[0], axes[flattest]);
-    e = extent(range, axes);
-    const Vector3d middle = 0.5 * (e.low + e.high);
+    const Vector3d middle = extent(range, axes).center();
     const Vector3d center = middle[0] * axes[0] + middle[1] * axes[1] + middle[2] * axes[2];
     double radius = 0.0, reach = 0.0;
     Vector3d half = Vector3d::Zero();
@@ -197,7 +185,7 @@ class BoxTree::Builder {
   }
 
   double weight(const Range& range) const {
-    return range.size() <= least_ ? -1.0 : extent(range, mainAxes(range)).halfArea();
+    return range.size() <= least_ ? -1.0 : halfArea(extent(range, mainAxes(range)));
   }
 
   std::pair<Range, Range> split(const Range& range) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/triangle_cut.h"
+#include "geometry/corners.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "common/infinity.h"
 #include "geometry/ray_directions.h"
 
 namespace sdf_ccd {
@@ -49,7 +49,7 @@ class Ray {
   bool meetsBox(const BoxTree::Node& node, std::int32_t i) const {
     const auto at = [i](const std::array<BoxTree::Node::Lane, 3>& v) { return Vector3d(v[0][i], v[1][i], v[2][i]); };
     const Vector3d from_center = from_origin_ - at(node.center);
-    double enter = 0.0, exit = std::numeric_limits<double>::infinity();
+    double enter = 0.0, exit = kInfinity;
     for (int k = 0; k < 3; ++k) {
       const Vector3d axis = at(node.axis[k]);
       const double start = axis.dot(from_center), speed = axis.dot(along_);
@@ -90,7 +90,7 @@ class Ray {
     if (left < 3 && right < 3) return 0;
     // No side is near, so the triangle is no sliver, and its normal is accurate.
     constexpr double kRounding = 1e-9;
-    const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+    const Vector3d normal = areaNormal(corners).normalized();
     const double height = normal.dot(p_ - corners[0]);
     if (std::abs(height) <= kRounding * tree_.ball().radius) return std::nullopt;
     if ((height > 0.0) == (left == 3)) return 0;  // behind p

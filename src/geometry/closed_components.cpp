@@ -6,10 +6,10 @@
 #include <set>
 
 #include "common/parallel_for.h"
+#include "cut_test.h"
 #include "measured_patch.h"
 #include "sdf_ccd/common/cancel.h"
 #include "self_crossing.h"
-#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {
@@ -40,9 +40,9 @@ class Inspection {
     const auto inward = std::count_if(closed_.begin(), closed_.end(), [&](auto i) { return components_[i].inward; });
     if (inward > 0) uniteClosed();
     if (inward == static_cast<std::ptrdiff_t>(closed_.size())) {
-      all_turned_ = true;
+      all_flipped_ = true;
       for (const std::int32_t i : closed_) {
-        result[i].turn = true;
+        result[i].flip = true;
         result[i].doubtful = closed_.size() > 1 && isHeld(i);
       }
     } else if (inward > 0) {
@@ -51,8 +51,8 @@ class Inspection {
     if (closed_.size() > 1) doubtNested(result);
     for (const std::int32_t i : closed_) {
       // Of two parts that meet in edges, only one may be inside out.
-      doubt(result[i], result[i].turn && branches(extract(mesh_, patches_[i])));
-      doubt(result[i], result[i].turn && isHeldByOpen(i));
+      doubt(result[i], result[i].flip && branches(extract(mesh_, patches_[i])));
+      doubt(result[i], result[i].flip && isHeldByOpen(i));
       findLobes(i, result);
     }
     // This many sheets may enclose a volume.
@@ -72,13 +72,13 @@ class Inspection {
   }
 
   void decide(std::vector<ClosedComponent>& result) {
-    all_turned_ = isInsideOut();
-    if (all_turned_) {
-      for (const std::int32_t i : closed_) result[i].turn = true;
+    all_flipped_ = isInsideOut();
+    if (all_flipped_) {
+      for (const std::int32_t i : closed_) result[i].flip = true;
     }
     std::vector<std::int32_t> inward;
     for (const std::int32_t i : closed_) {
-      if (components_[i].inward != result[i].turn) inward.push_back(i);
+      if (components_[i].inward != result[i].flip) inward.push_back(i);
     }
     // Patches that contain others come before them.
     std::stable_sort(inward.begin(), inward.end(), [&](std::int32_t a, std::int32_t b) {
@@ -89,18 +89,18 @@ class Inspection {
       long around = 0;
       bool in_touched = false;
       for (const std::int32_t holder : candidates(i)) {
-        const long number = (result[holder].turn ? -1 : 1) * numberIn(holder, i);
+        const long number = (result[holder].flip ? -1 : 1) * numberIn(holder, i);
         if (touched.count(holder) == 0)
           around += number;
         else
           in_touched = in_touched || number != 0;
       }
       if (around == 0) {
-        result[i].turn = !result[i].turn;
+        result[i].flip = !result[i].flip;
         continue;
       }
       result[i].cavity = true;
-      doubt(result[i], all_turned_ || in_touched || around != 1 || isFlushInPart(i));
+      doubt(result[i], all_flipped_ || in_touched || around != 1 || isFlushInPart(i));
       for (const std::int32_t other : touched) doubt(result[i], result[other].cavity);
     }
   }
@@ -111,7 +111,7 @@ class Inspection {
     std::vector<char> uncertain(patches_.size(), 0);
     bool any = false;
     for (const std::int32_t i : closed_) {
-      uncertain[i] = patches_[i].mixed || (result[i].turn && !all_turned_);
+      uncertain[i] = patches_[i].mixed || (result[i].flip && !all_flipped_);
       any = any || uncertain[i] != 0;
     }
     if (!any) return;
@@ -200,8 +200,7 @@ class Inspection {
     bool flush = false, free = false;
     for (const std::int32_t triangle : patches_[cavity].triangles) {
       checkCancelled();
-      const Corners c = cornersOf(mesh_, triangle);
-      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+      const Vector3d center = centroid(cornersOf(mesh_, triangle));
       const bool here = std::any_of(holders.begin(), holders.end(), [&](std::int32_t holder) {
         return components_[holder].tree->closestPoint(center, rounding_).triangle >= 0;
       });
@@ -236,10 +235,7 @@ class Inspection {
     std::vector<int> near;
     for (const std::int32_t triangle : triangles) {
       checkCancelled();
-      const Corners c = cornersOf(mesh_, triangle);
-      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
-      const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
-      tree_->trianglesWithin(center, radius + eps_, near);
+      tree_->trianglesNear(cornersOf(mesh_, triangle), eps_, near);
       for (const int i : near) {
         const std::int32_t other = triangles_[i];
         if (label_[other] == label_[triangle] || found.count(label_[other]) != 0) continue;
@@ -273,8 +269,7 @@ class Inspection {
   bool holds(std::int32_t patch, const std::vector<std::int32_t>& triangles) const {
     const MeasuredPatch& component = components_[patch];
     return std::any_of(triangles.begin(), triangles.end(), [&](std::int32_t triangle) {
-      const Corners c = cornersOf(mesh_, triangle);
-      const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+      const Vector3d center = centroid(cornersOf(mesh_, triangle));
       return component.box.contains(center) && component.tree->inside(center, TriangleTree::Inside::kNotZero);
     });
   }
@@ -283,7 +278,7 @@ class Inspection {
   const std::vector<Patch>& patches_;
   double eps_;                             ///< see cutTolerance()
   double rounding_;                        ///< [m]
-  bool all_turned_ = false;                ///< the whole file is inside out
+  bool all_flipped_ = false;               ///< the whole file is inside out
   std::vector<MeasuredPatch> components_;  ///< per patch
   std::vector<std::int32_t> label_;        ///< of each triangle: its closed patch, or -1
   std::vector<std::int32_t> closed_;       ///< indices of the closed patches

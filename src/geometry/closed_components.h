@@ -8,7 +8,7 @@ namespace sdf_ccd {
 
 /// How a closed patch is to be treated, and its properties then.
 struct ClosedComponent {
-  bool turn = false;
+  bool flip = false;
   bool cavity = false;
   bool flat = false;           ///< a sheet drawn from both sides
   int negative_triangles = 0;  ///< with a winding number of the patch behind them that is not above zero, although the

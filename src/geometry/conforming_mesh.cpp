@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "edge_search.h"
+#include "geometry/box_measures.h"
 #include "seams.h"
 
 namespace sdf_ccd {
@@ -144,9 +145,8 @@ ConformingMesh conformingMesh(const TriangleMesh& mesh) {
   std::iota(result.source.begin(), result.source.end(), 0);
   if (unbalancedEdges(mesh).empty()) return result;
   const AlignedBox3d box = boundingBox(mesh);
-  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
   for (const double digits : {kDoubleDigits, kFloatDigits}) {
-    ConformingMesh next = joinedWithin(mesh, std::min(digits * reach, kMax * box.sizes().maxCoeff()));
+    ConformingMesh next = joinedWithin(mesh, std::min(digits * largestCoordinate(box), kMax * box.sizes().maxCoeff()));
     if (!isOdd(next.mesh)) return next;
   }
   return result;

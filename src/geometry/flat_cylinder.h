@@ -17,23 +17,23 @@ struct FlatCylinder {
 
   /// Enlarges it to contain a point, with a margin for rounding.
   void extend(const Vector3d& p) {
-    const Vector3d way = p - center;
-    const double along = std::abs(axis.dot(way));
+    const Vector3d offset = p - center;
+    const double along = std::abs(axis.dot(offset));
     half_height = std::max(half_height, along * (1.0 + 1e-9));
-    radius = std::max(radius, across(way, along) * (1.0 + 1e-9));
+    radius = std::max(radius, across(offset, along) * (1.0 + 1e-9));
   }
 
   /// False only if all of its points are certainly farther than `distance` from p.
   bool mayBeWithin(double distance, const Vector3d& p) const {
-    const Vector3d way = p - center;
-    const double along = std::abs(axis.dot(way));
-    const double above = std::max(along - half_height, 0.0), beside = std::max(across(way, along) - radius, 0.0);
+    const Vector3d offset = p - center;
+    const double along = std::abs(axis.dot(offset));
+    const double above = std::max(along - half_height, 0.0), beside = std::max(across(offset, along) - radius, 0.0);
     return above * above + beside * beside <= distance * distance * (1.0 + 1e-12);
   }
 
  private:
-  static double across(const Vector3d& way, double along) {
-    return std::sqrt(std::max(way.squaredNorm() - along * along, 0.0));
+  static double across(const Vector3d& offset, double along) {
+    return std::sqrt(std::max(offset.squaredNorm() - along * along, 0.0));
   }
 };
 

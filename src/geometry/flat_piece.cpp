@@ -1,14 +1,15 @@
 #include "flat_piece.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
 
-Vector2d leftOf(const Vector2d& way) {
-  return {-way.y(), way.x()};
+Vector2d leftOf(const Vector2d& direction) {
+  return {-direction.y(), direction.x()};
 }
 
 double cross(const Vector2d& a, const Vector2d& b) {
@@ -50,7 +51,7 @@ Vector2d FlatPiece::centroid() const {
 }
 
 double FlatPiece::depth(const Vector2d& x) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const FlatLine& side : sides_) least = std::min(least, side.distance(x));
   return least;
 }
@@ -91,7 +92,7 @@ std::array<FlatPiece, 2> FlatPiece::cut(const FlatLine& line, double snap) const
     if (at_a <= snap) parts[1].push_back(a);
     if (std::min(at_a, at_b) >= -snap || std::max(at_a, at_b) <= snap) continue;
     const double s = at_a / (at_a - at_b);
-    const FlatCorner middle{a.at + s * (b.at - a.at), a.place + s * (b.place - a.place)};
+    const FlatCorner middle{a.at + s * (b.at - a.at), a.point + s * (b.point - a.point)};
     for (auto& part : parts) part.push_back(middle);
   }
   std::array<FlatPiece, 2> pieces;
@@ -106,7 +107,7 @@ std::vector<std::array<int, 3>> FlatPiece::triangles() const {
   int best = 0;
   double best_width = -1.0;
   for (int apex = 0; apex < count; ++apex) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (int i = 1; i + 1 < count; ++i) {
       least = std::min(least,
                        width(corners_[apex].at, corners_[(apex + i) % count].at, corners_[(apex + i + 1) % count].at));

@@ -13,7 +13,7 @@ using Vector2d = Eigen::Vector2d;
 /// A corner of a flat piece: in the piece's plane, and in space.
 struct FlatCorner {
   Vector2d at;
-  Vector3d place;
+  Vector3d point;
   int vertex = -1;  ///< of the mesh; -1 for a corner made by a cut
 };
 

@@ -5,12 +5,11 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/pi.h"
 #include "polygon.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Ring = std::vector<Vector3d>;
 

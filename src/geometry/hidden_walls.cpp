@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "common/parallel_for.h"
+#include "cut_test.h"
 #include "geometry/triangle_tree.h"
-#include "triangle_cut.h"
 
 namespace sdf_ccd {
 
@@ -28,12 +28,11 @@ std::vector<char> hiddenWalls(const TriangleMesh& mesh, const std::vector<Patch>
   parallelFor(std::size_t{0}, walls.size(), [&](std::size_t i) {
     const int wall = first + static_cast<int>(i);
     const Corners c = cornersOf(closed, wall);
-    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
+    const Vector3d center = centroid(c);
     if (!tree.inside(center, TriangleTree::Inside::kNotZero)) return;
     if (all && !all->inside(center, TriangleTree::Inside::kAboveHalf)) return;
-    const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
     std::vector<int> near;
-    tree.trianglesWithin(center, radius + eps, near);
+    tree.trianglesNear(c, eps, near);
     hidden[i] = std::none_of(near.begin(), near.end(), [&](int other) { return cut(closed, wall, other, eps); });
   });
   return hidden;

@@ -16,8 +16,8 @@ struct ClosedParts {
 };
 
 ClosedParts closedParts(const TriangleMesh& mesh) {
-  TriangleMesh turned = mesh;
-  std::vector<Patch> patches = orientConsistently(turned);
+  TriangleMesh oriented = mesh;
+  std::vector<Patch> patches = orientConsistently(oriented);
   std::ptrdiff_t closed = 0;
   for (Patch& patch : patches) {
     // In the orientation of the mesh, not in the one that would close it.

@@ -16,7 +16,7 @@ namespace sdf_ccd {
 /// mesh is above one half.
 class Interior {
  public:
-  /// @param mesh  turned outward (see orientOutward()).
+  /// @param mesh  oriented outward (see orientOutward()).
   /// @param tree  over the same mesh.
   Interior(const TriangleMesh& mesh, std::shared_ptr<const TriangleTree> tree);
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <tuple>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
@@ -62,7 +63,7 @@ void triangulate(const std::vector<Vector3d>& vertices, const std::vector<int>& 
     for (int i = 0; i + span < n; ++i) {
       const int k = i + span;
       double& best = least[i * n + k];
-      best = std::numeric_limits<double>::infinity();
+      best = kInfinity;
       for (int j = i + 1; j < k; ++j) {
         const double area = least[i * n + j] + least[j * n + k] + areaOf(vertices, loop[i], loop[j], loop[k]);
         if (area < best) std::tie(best, corner[i * n + k]) = std::tuple(area, j);
@@ -84,7 +85,7 @@ void triangulate(const std::vector<Vector3d>& vertices, const std::vector<int>& 
 /// Both loops as one, over a bridge between their closest vertices.
 std::vector<int> bridged(const std::vector<Vector3d>& vertices, const std::vector<int>& a, const std::vector<int>& b) {
   std::size_t from = 0, to = 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       const double distance2 = (vertices[a[i]] - vertices[b[k]]).squaredNorm();

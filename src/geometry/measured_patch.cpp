@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/parallel_for.h"
-#include "triangle_cut.h"
+#include "geometry/corners.h"
 
 namespace sdf_ccd {
 namespace {
@@ -47,7 +47,7 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
     const Vector3d area_normal = areaNormal(part, static_cast<int>(i));
     const double longest = longestEdge(c);
     if (!(area_normal.norm() > 1e-6 * longest * longest)) return;
-    behind[i] = (c[0] + c[1] + c[2]) / 3.0 - 1e-6 * area_normal / longest;
+    behind[i] = centroid(c) - 1e-6 * area_normal / longest;
     numbers[i] = result.tree->windingNumber(behind[i]);
     known[i] = 1;
   });
@@ -63,9 +63,8 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
     if (number == 1) area_out += area;
     if (number == 0) area_in += area;
     if (behind[i].x() > farthest) {
-      const Corners c = cornersOf(part, static_cast<int>(i));
       farthest = behind[i].x();
-      result.witness = (c[0] + c[1] + c[2]) / 3.0;
+      result.witness = centroid(cornersOf(part, static_cast<int>(i)));
       result.behind = behind[i];
       result.own_number = numbers[i];
     }

@@ -14,12 +14,12 @@ template <class Vertex>
 void sortInto(std::vector<EdgeUse>& sorted, const std::vector<EdgeUse>& uses, std::size_t vertices,
               const Vertex& vertex) {
   CancelTicks<4096> cancel;
-  std::vector<std::size_t> place(vertices + 1, 0);
-  for (const EdgeUse& use : uses) ++place[vertex(use) + 1];
-  std::partial_sum(place.begin(), place.end(), place.begin());
+  std::vector<std::size_t> position(vertices + 1, 0);
+  for (const EdgeUse& use : uses) ++position[vertex(use) + 1];
+  std::partial_sum(position.begin(), position.end(), position.begin());
   for (const EdgeUse& use : uses) {
     cancel.check();
-    sorted[place[vertex(use)]++] = use;
+    sorted[position[vertex(use)]++] = use;
   }
 }
 

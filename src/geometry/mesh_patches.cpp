@@ -30,16 +30,16 @@ std::vector<std::array<Neighbour, 3>> neighbours(const TriangleMesh& mesh, const
 }
 
 /// Connected sets of triangles.
-struct TurnedSets {
+struct FlippedSets {
   std::vector<std::int32_t> label;  ///< of each triangle
   std::vector<char> mixed;          ///< per label, whether some of its triangles were flipped, but not all
 };
 
 /// Flips triangles until those of each set agree.
-TurnedSets turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
+FlippedSets flipBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
   const auto adjacent = neighbours(mesh, uses);
   std::vector<std::int32_t> label(mesh.triangles.size(), -1);
-  std::vector<char> turned(mesh.triangles.size(), 0), mixed;
+  std::vector<char> flipped(mesh.triangles.size(), 0), mixed;
   std::vector<std::int32_t> set;
   std::int32_t sets = 0;
   CancelTicks<4096> cancel;
@@ -47,25 +47,25 @@ TurnedSets turnBySets(TriangleMesh& mesh, const std::vector<EdgeUse>& uses) {
     if (label[seed] >= 0) continue;
     set.assign(1, static_cast<std::int32_t>(seed));
     label[seed] = sets;
-    double area = 0, turned_area = 0;
+    double area = 0, flipped_area = 0;
     for (std::size_t next = 0; next < set.size(); ++next) {
       cancel.check();
       const std::int32_t triangle = set[next];
       const double weight = areaNormal(mesh, triangle).norm();
       area += weight;
-      if (turned[triangle]) turned_area += weight;
+      if (flipped[triangle]) flipped_area += weight;
       for (const Neighbour& neighbour : adjacent[triangle]) {
         if (neighbour.triangle < 0 || label[neighbour.triangle] >= 0) continue;
         label[neighbour.triangle] = sets;
-        turned[neighbour.triangle] = turned[triangle] != !neighbour.agrees;
+        flipped[neighbour.triangle] = flipped[triangle] != !neighbour.agrees;
         set.push_back(neighbour.triangle);
       }
     }
-    const bool keep_turned = turned_area <= area / 2;
+    const bool keep_flipped = flipped_area <= area / 2;
     for (const std::int32_t triangle : set) {
-      if ((turned[triangle] != 0) == keep_turned) std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
+      if ((flipped[triangle] != 0) == keep_flipped) std::swap(mesh.triangles[triangle][1], mesh.triangles[triangle][2]);
     }
-    mixed.push_back(std::any_of(set.begin(), set.end(), [&](auto triangle) { return turned[triangle] != 0; }));
+    mixed.push_back(std::any_of(set.begin(), set.end(), [&](auto triangle) { return flipped[triangle] != 0; }));
     ++sets;
   }
   return {std::move(label), std::move(mixed)};
@@ -88,8 +88,8 @@ std::vector<char> balanced(const std::vector<EdgeUse>& uses, const std::vector<s
 }  // namespace
 
 std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
-  const TurnedSets turned = turnBySets(mesh, edgeUses(mesh));
-  const std::vector<std::int32_t>& label = turned.label;
+  const FlippedSets flipped = flipBySets(mesh, edgeUses(mesh));
+  const std::vector<std::int32_t>& label = flipped.label;
   const std::vector<EdgeUse> uses = edgeUses(mesh);
   const std::vector<char> closed_alone = balanced(uses, label);
 
@@ -123,7 +123,7 @@ std::vector<Patch> orientConsistently(TriangleMesh& mesh) {
       patches.push_back({{}, is_closed});
     }
     patches[index].triangles.push_back(static_cast<std::int32_t>(i));
-    patches[index].mixed = patches[index].mixed || turned.mixed[label[i]] != 0;
+    patches[index].mixed = patches[index].mixed || flipped.mixed[label[i]] != 0;
   }
   return patches;
 }
@@ -138,9 +138,9 @@ TriangleMesh extract(const TriangleMesh& mesh, const Patch& patch) {
     Vector3i corners;
     for (int i = 0; i < 3; ++i) {
       const std::int32_t vertex = mesh.triangles[triangle][i];
-      const auto [place, is_new] = vertices.try_emplace(vertex, static_cast<std::int32_t>(part.vertices.size()));
+      const auto [entry, is_new] = vertices.try_emplace(vertex, static_cast<std::int32_t>(part.vertices.size()));
       if (is_new) part.vertices.push_back(mesh.vertices[vertex]);
-      corners[i] = place->second;
+      corners[i] = entry->second;
     }
     part.triangles.push_back(corners);
   }

@@ -2,34 +2,31 @@
 
 #include <sstream>
 
+#include "common/counted.h"
+
 namespace sdf_ccd {
 
 std::string summary(const MeshQuality& quality) {
   std::ostringstream text;
   text.precision(3);
-  const auto count = [&](int number, const char* one, const char* many) {
-    if (number > 0) text << ", " << number << " " << (number == 1 ? one : many);
+  const auto count = [&](int number, const char* noun, const char* what) {
+    if (number > 0) text << ", " << counted(number, noun) << what;
     return number > 0;
   };
-  text << quality.triangles << (quality.triangles == 1 ? " triangle" : " triangles");
-  if (quality.components > 1) text << ", " << quality.components << " components";
-  count(quality.degenerate_triangles, "degenerate triangle", "degenerate triangles");
+  const auto area = [&](double area) { text << " (" << area << " m^2)"; };
+  text << counted(quality.triangles, "triangle");
+  if (quality.components > 1) count(quality.components, "component", "");
+  count(quality.degenerate_triangles, "degenerate triangle", "");
   if (quality.boundary_edges == 0) text << ", closed";
-  count(quality.boundary_edges, "boundary edge", "boundary edges");
-  count(quality.non_manifold_edges, "non-manifold edge", "non-manifold edges");
-  count(quality.misoriented_edges, "misoriented edge", "misoriented edges");
-  if (count(quality.duplicate_triangles, "duplicate triangle", "duplicate triangles")) {
-    text << " left out (" << quality.duplicate_area << " m^2)";
-  }
-  if (quality.hidden_triangles > 0) {
-    text << ", " << quality.hidden_triangles << " triangles of interior walls removed (" << quality.hidden_area
-         << " m^2)";
-  }
-  count(quality.wall_triangles, "", "triangles of walls without thickness");
-  count(quality.inverted_components, "inverted component flipped", "inverted components flipped");
-  count(quality.inverted_sheets, "open part flipped", "open parts flipped");
-  count(quality.negative_triangles, "triangle inside out by self-intersection",
-        "triangles inside out by self-intersection");
+  count(quality.boundary_edges, "boundary edge", "");
+  count(quality.non_manifold_edges, "non-manifold edge", "");
+  count(quality.misoriented_edges, "misoriented edge", "");
+  if (count(quality.duplicate_triangles, "duplicate triangle", " left out")) area(quality.duplicate_area);
+  if (count(quality.hidden_triangles, "triangle", " of interior walls removed")) area(quality.hidden_area);
+  count(quality.wall_triangles, "triangle", " of walls without thickness");
+  count(quality.inverted_components, "inverted component", " flipped");
+  count(quality.inverted_sheets, "open part", " flipped");
+  count(quality.negative_triangles, "triangle", " inside out by self-intersection");
   text << ", volume " << quality.volume << " m^3, sign " << (quality.sign_trusted ? "trusted" : "doubtful");
   return text.str();
 }

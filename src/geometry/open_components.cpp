@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "common/parallel_for.h"
+#include "common/pi.h"
 #include "geometry/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr double kTwoPi = 6.28318530717958647692;
 
 /// SplitMix64 (Steele, Lea, Flood 2014): one sequence per seed, with a state of a single number.
 class Sequence {
@@ -79,8 +78,8 @@ class Caster {
     Sequence random(static_cast<std::uint64_t>(patch));
     for (int i = 0; i < count; ++i) {
       const double at = area * (i + random.next()) / count;
-      const auto place = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
-      const std::int32_t triangle = triangles[place - area_up_to.begin()];
+      const auto chosen = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at);
+      const std::int32_t triangle = triangles[chosen - area_up_to.begin()];
       const Vector3d normal = areaNormal(mesh_, triangle).normalized();
       if (!normal.allFinite() || normal.isZero()) continue;
       const Vector3d p = pointOn(triangle, random);
@@ -99,7 +98,7 @@ class Caster {
 
   /// A random direction, distributed by the cosine to the normal.
   static Vector3d aboutNormal(const Vector3d& normal, Sequence& random) {
-    const double radius = std::sqrt(random.next()), angle = kTwoPi * random.next();
+    const double radius = std::sqrt(random.next()), angle = 2.0 * kPi * random.next();
     const Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
     const double up = std::sqrt(std::max(1e-6, 1.0 - radius * radius));
     return (radius * std::cos(angle) * x + radius * std::sin(angle) * y + up * normal).normalized();
@@ -132,19 +131,19 @@ class Caster {
 std::vector<char> openPatchesToFlip(const TriangleMesh& mesh, const std::vector<Patch>& patches) {
   constexpr int kSweeps = 16;
   constexpr std::size_t kManyPatches = 4096;
-  std::vector<char> turned(patches.size(), 0);
+  std::vector<char> flipped(patches.size(), 0);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i].closed) open.push_back(static_cast<std::int32_t>(i));
   }
-  if (open.empty()) return turned;
+  if (open.empty()) return flipped;
 
   const Caster caster(mesh, patches);
   // If solids overlap, part of a face is visible from outside, and another part from inside the other solid, so rays
   // can be misleading. Winding numbers are reliable where they are integers.
   const int points = open.size() > kManyPatches ? 1 : 8;
   if (std::all_of(open.begin(), open.end(), [&](std::int32_t i) { return caster.boundsSolid(i, points); }))
-    return turned;
+    return flipped;
   std::vector<Votes> votes(patches.size());
   parallelFor(std::size_t{0}, open.size(), [&](std::size_t i) { votes[open[i]] = caster.cast(open[i], open.size()); });
 
@@ -160,19 +159,19 @@ std::vector<char> openPatchesToFlip(const TriangleMesh& mesh, const std::vector<
     for (const std::int32_t patch : open) {
       int front = votes[patch].escape;
       for (const auto& [other, same] : votes[patch].same) {
-        if (decided[other]) front += turned[other] ? -same : same;
+        if (decided[other]) front += flipped[other] ? -same : same;
       }
       if (votes[patch].rays == 0) continue;
       const bool clear = 20 * std::abs(front) > votes[patch].rays;
       if (!clear && sweep == 0) continue;  // until more is known of the others
-      const char turn = clear ? front < 0 : turned[patch];
-      changed = changed || turn != turned[patch] || !decided[patch];
-      turned[patch] = turn;
+      const char flips = clear ? front < 0 : flipped[patch];
+      changed = changed || flips != flipped[patch] || !decided[patch];
+      flipped[patch] = flips;
       decided[patch] = 1;
     }
     if (!changed && sweep > 0) break;
   }
-  return turned;
+  return flipped;
 }
 
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "common/counted.h"
 #include "loop_cap.h"
 #include "mesh_patches.h"
 #include "reach_bound.h"
@@ -69,8 +70,7 @@ Openings findOpenings(const TriangleMesh& mesh) {
   ReachBound reach(check.tree(), kCrack * diagonal);
   for (const Vector3i& t : openings.caps.triangles) {
     checkCancelled();
-    const std::vector<Vector3d>& v = openings.caps.vertices;
-    openings.reach.push_back(reach.of(v[t[0]], v[t[1]], v[t[2]]));
+    openings.reach.push_back(reach.of(cornersOf(openings.caps.vertices, t)));
   }
   return openings;
 }
@@ -81,8 +81,8 @@ std::string summary(const Openings& openings) {
   if (openings.count == 0) {
     text << (openings.caps.triangles.empty() ? "no openings" : "no openings beyond cracks");
   } else {
-    text << openings.count << (openings.count == 1 ? " opening" : " openings") << ", the longest " << openings.longest
-         << " m around, " << openings.area << " m^2 of caps";
+    text << counted(openings.count, "opening") << ", the longest " << openings.longest << " m around, " << openings.area
+         << " m^2 of caps";
   }
   if (openings.doubt > 0.0) text << ", doubtful in " << 100.0 * openings.doubt << " % of the interior";
   if (openings.voxels > 0) text << ", " << openings.voxels << " voxels treated as inside";

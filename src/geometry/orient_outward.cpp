@@ -7,13 +7,13 @@
 #include "closed_components.h"
 #include "conforming_mesh.h"
 #include "duplicate_triangles.h"
+#include "geometry/corners.h"
 #include "geometry/triangle_tree.h"
 #include "hidden_walls.h"
 #include "mesh_patches.h"
 #include "open_components.h"
 #include "sdf_ccd/common/cancel.h"
 #include "self_crossing.h"
-#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {
@@ -33,75 +33,75 @@ void inspectEdges(const TriangleMesh& mesh, MeshQuality& quality) {
   }
 }
 
-/// Flips triangles of `mesh` as their parts are flipped in `turned`.
+/// Flips triangles of `mesh` as their parts are flipped in `flipped`.
 /// @return whether all parts of each triangle agree.
-bool turnAsParts(const ConformingMesh& parts, const TriangleMesh& turned, TriangleMesh& mesh) {
-  std::vector<char> turn(mesh.triangles.size(), 0);
+bool flipAsParts(const ConformingMesh& parts, const TriangleMesh& flipped, TriangleMesh& mesh) {
+  std::vector<char> flips(mesh.triangles.size(), 0);
   bool agree = true;
   for (std::size_t i = 0; i < parts.source.size(); ++i) {
     const std::int32_t source = parts.source[i];
-    const char turns = turned.triangles[i] != parts.mesh.triangles[i];
-    agree = agree && (i == 0 || parts.source[i - 1] != source || turn[source] == turns);
-    turn[source] = turns;
+    const char is_flipped = flipped.triangles[i] != parts.mesh.triangles[i];
+    agree = agree && (i == 0 || parts.source[i - 1] != source || flips[source] == is_flipped);
+    flips[source] = is_flipped;
   }
-  for (std::size_t i = 0; i < turn.size(); ++i) {
-    if (turn[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+  for (std::size_t i = 0; i < flips.size(); ++i) {
+    if (flips[i]) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
   }
   return agree;
 }
 
 /// What orienting the closed patches of a mesh has shown of all of them together.
 struct ClosedPatches {
-  int closed = 0, turned = 0, cavities = 0, flat = 0, mixed = 0;
+  int closed = 0, flipped = 0, cavities = 0, flat = 0, mixed = 0;
   bool doubtful = false;
 
   /// Whether all closed patches are whole solids in the orientation in which they are drawn, side by side or
   /// overlapping.
-  bool isPlain() const { return turned == 0 && cavities == 0 && flat == 0 && mixed == 0; }
+  bool isPlain() const { return flipped == 0 && cavities == 0 && flat == 0 && mixed == 0; }
 };
 
 /// Whether a flipped patch meets others in an edge, so that one may have been cut out of the other.
-bool turnedMeetsOthers(const std::vector<Patch>& patches, const std::vector<ClosedComponent>& closed,
-                       const TriangleMesh& mesh) {
-  std::vector<char> turned(mesh.triangles.size(), 0);
+bool flippedMeetsOthers(const std::vector<Patch>& patches, const std::vector<ClosedComponent>& closed,
+                        const TriangleMesh& mesh) {
+  std::vector<char> flipped(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (!closed[i].turn) continue;
-    for (const std::int32_t triangle : patches[i].triangles) turned[triangle] = 1;
+    if (!closed[i].flip) continue;
+    for (const std::int32_t triangle : patches[i].triangles) flipped[triangle] = 1;
   }
   bool found = false;
   forEachEdge(edgeUses(mesh), [&](const EdgeUse* first, const EdgeUse* last) {
     if (last - first <= 2 || found) return;
-    const auto of_turned = std::count_if(first, last, [&](const EdgeUse& use) { return turned[use.triangle] != 0; });
-    found = of_turned > 0 && of_turned < last - first;
+    const auto of_flipped = std::count_if(first, last, [&](const EdgeUse& use) { return flipped[use.triangle] != 0; });
+    found = of_flipped > 0 && of_flipped < last - first;
   });
   return found;
 }
 
 /// Whether a flipped patch touches itself: it may be two parts, joined where faces were tessellated separately.
-bool turnedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& turned) {
+bool flippedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& flipped) {
   return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
     const std::int32_t first = patch.triangles.front();
-    if (!patch.closed || drawn.triangles[first] == turned.triangles[first]) return false;
-    const TriangleMesh part = extract(turned, patch);
+    if (!patch.closed || drawn.triangles[first] == flipped.triangles[first]) return false;
+    const TriangleMesh part = extract(flipped, patch);
     return touchesItself(part, TriangleTree(part));
   });
 }
 
-ClosedPatches turnClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
+ClosedPatches flipClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
   ClosedPatches all;
   const std::vector<ClosedComponent> closed = inspectClosed(mesh, patches);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     all.closed += patches[i].closed;
-    all.turned += closed[i].turn;
+    all.flipped += closed[i].flip;
     all.cavities += closed[i].cavity;
     all.flat += closed[i].flat;
     all.mixed += patches[i].closed && patches[i].mixed;
     all.doubtful = all.doubtful || closed[i].doubtful;
     quality.negative_triangles += closed[i].negative_triangles;
-    if (closed[i].turn) flip(mesh, patches[i]);
+    if (closed[i].flip) flip(mesh, patches[i]);
   }
-  quality.inverted_components = all.turned;
-  all.doubtful = all.doubtful || (all.turned > 0 && turnedMeetsOthers(patches, closed, mesh));
+  quality.inverted_components = all.flipped;
+  all.doubtful = all.doubtful || (all.flipped > 0 && flippedMeetsOthers(patches, closed, mesh));
   return all;
 }
 
@@ -115,15 +115,15 @@ bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
   const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // more than seesOutside() widens triangles by
   for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
     checkCancelled();
-    const Corners c = cornersOf(mesh, static_cast<int>(i));
-    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0, normal = areaNormal(mesh, static_cast<int>(i)).normalized();
+    const Vector3d center = centroid(cornersOf(mesh, static_cast<int>(i)));
+    const Vector3d normal = areaNormal(mesh, static_cast<int>(i)).normalized();
     if (!tree.seesOutside(center + step * normal) || !tree.seesOutside(center - step * normal)) return true;
   }
   return false;
 }
 
 /// Flips the patches of the mesh outward, and removes the walls that are hidden inside it from `distinct`.
-void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
+void flipOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   std::vector<Vector3i>& walls = distinct.walls;
   MeshQuality& quality = result.quality;
   const ConformingMesh joined = conformingMesh(result.mesh);
@@ -137,14 +137,14 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   checkCancelled();
   likeness = normalized(std::move(likeness));
   const TriangleMesh drawn = likeness;
-  const ClosedPatches closed = turnClosed(patches, likeness, quality);
+  const ClosedPatches closed = flipClosed(patches, likeness, quality);
   // Two parts that were tessellated separately may have been joined at a common edge, and cancel each other.
   const bool is_joined = joined.mesh.triangles.size() != result.mesh.triangles.size();
   bool doubtful = closed.doubtful || (is_joined && quality.negative_triangles > 0);
-  doubtful = doubtful || (is_joined && closed.turned > 0 && turnedTouchesItself(patches, drawn, likeness));
+  doubtful = doubtful || (is_joined && closed.flipped > 0 && flippedTouchesItself(patches, drawn, likeness));
   // Of a part that is drawn twice, one may be a solid and the other not.
-  const bool some_turned = closed.turned > 0 && closed.turned < closed.closed;
-  doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_turned));
+  const bool some_flipped = closed.flipped > 0 && closed.flipped < closed.closed;
+  doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_flipped));
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = openPatchesToFlip(hiding, patches);
@@ -153,7 +153,7 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
     if (from_behind[i] != 0) flip(likeness, patches[i]);
   }
   const std::vector<char> hidden = hiddenWalls(likeness, patches, walls);
-  doubtful = !turnAsParts(joined, likeness, result.mesh) || doubtful;
+  doubtful = !flipAsParts(joined, likeness, result.mesh) || doubtful;
 
   std::size_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -161,10 +161,8 @@ void turnOutward(DistinctTriangles& distinct, OrientedMesh& result) {
       walls[kept++] = walls[i];
       continue;
     }
-    const Vector3i& t = walls[i];
-    const Vector3d &a = result.mesh.vertices[t[0]], &b = result.mesh.vertices[t[1]], &c = result.mesh.vertices[t[2]];
     quality.hidden_triangles += 2;
-    quality.hidden_area += (b - a).cross(c - a).norm();
+    quality.hidden_area += areaNormal(cornersOf(result.mesh.vertices, walls[i])).norm();
   }
   walls.resize(kept);
   // Walls that are kept may be what is left of a part that another one cancels.
@@ -199,7 +197,7 @@ OrientedMesh orientOutward(const TriangleMesh& mesh) {
   quality.box = boundingBox(result.mesh);
 
   result.mesh = std::move(distinct.mesh);
-  turnOutward(distinct, result);
+  flipOutward(distinct, result);
   for (const Vector3i& wall : walls) {
     result.mesh.triangles.push_back(wall);
     result.mesh.triangles.emplace_back(wall[0], wall[2], wall[1]);

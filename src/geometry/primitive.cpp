@@ -1,14 +1,14 @@
 #include "sdf_ccd/geometry/primitive.h"
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/infinity.h"
+#include "common/pi.h"
+
 namespace sdf_ccd {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 void requirePositive(const char* what, double value) {
   if (std::isfinite(value) && value > 0) return;
@@ -24,7 +24,7 @@ struct Area {
     return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
   }
   double operator()(const Cylinder& c) const { return 2 * kPi * c.radius * (c.radius + 2 * c.half_length); }
-  double operator()(const HalfSpace&) const { return std::numeric_limits<double>::infinity(); }
+  double operator()(const HalfSpace&) const { return kInfinity; }
 };
 
 struct Validate {
@@ -106,9 +106,7 @@ struct Bounds {
   AlignedBox3d operator()(const Cylinder& cylinder) const {
     return symmetric({cylinder.radius, cylinder.radius, cylinder.half_length});
   }
-  AlignedBox3d operator()(const HalfSpace&) const {
-    return symmetric(Vector3d::Constant(std::numeric_limits<double>::infinity()));
-  }
+  AlignedBox3d operator()(const HalfSpace&) const { return symmetric(Vector3d::Constant(kInfinity)); }
   static AlignedBox3d symmetric(const Vector3d& half) { return AlignedBox3d(-half, half); }
 };
 

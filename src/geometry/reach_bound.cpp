@@ -4,19 +4,20 @@
 
 namespace sdf_ccd {
 
-double ReachBound::of(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+double ReachBound::of(const Corners& t) {
   constexpr int kParts = 5;  // number of halvings
-  return bound({a, b, c}, kParts);
+  return bound(t, kParts);
 }
 
 /// The distance from one triangle of the mesh is convex, so its largest value at the corners is a bound. For a sliver
 /// that bridges a crack, several triangles are equally near to its middle, and one of them is near to all of it.
-double ReachBound::boundByOne(const Corners& t, const Vector3d& center, double radius) {
+double ReachBound::boundByOne(const Corners& t) {
+  const Vector3d center = centroid(t);
   const TriangleTree::ClosestPoint nearest = tree_.closestPoint(center);
   least_ = nearest.distance;
   near_.assign(1, nearest.triangle);
   if (nearest.distance < crack_) tree_.trianglesWithin(center, crack_, near_);
-  double best = nearest.distance + radius;
+  double best = nearest.distance + farthestDistance(t, center);
   for (const int triangle : near_) {
     double at_corners = 0.0;
     for (const Vector3d& p : t) at_corners = std::max(at_corners, tree_.distanceTo(triangle, p));
@@ -26,10 +27,7 @@ double ReachBound::boundByOne(const Corners& t, const Vector3d& center, double r
 }
 
 double ReachBound::bound(const Corners& t, int depth) {
-  const Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-  double radius = 0.0;
-  for (const Vector3d& p : t) radius = std::max(radius, (p - center).norm());
-  const double whole = boundByOne(t, center, radius);
+  const double whole = boundByOne(t);
   if (depth == 0 || whole <= 2.0 * least_) return whole;
   // The parts of a triangle may be near to other triangles of the mesh.
   int longest = 0;

@@ -13,12 +13,10 @@ class ReachBound {
   /// @param crack  where a triangle is nearer to the mesh than this, all triangles within this distance are tried [m].
   ReachBound(const TriangleTree& tree, double crack) : tree_(tree), crack_(crack) {}
 
-  double of(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+  double of(const Corners& t);
 
  private:
-  using Corners = std::array<Vector3d, 3>;
-
-  double boundByOne(const Corners& t, const Vector3d& center, double radius);
+  double boundByOne(const Corners& t);
   double bound(const Corners& t, int depth);
 
   const TriangleTree& tree_;

@@ -10,9 +10,9 @@ namespace sdf_ccd {
 namespace {
 
 EdgeSearch searchOf(const TriangleMesh& mesh, const std::vector<std::pair<std::pair<int, int>, int>>& edges) {
-  std::vector<std::pair<int, int>> places;
-  for (const auto& [edge, n] : edges) places.push_back(edge);
-  return EdgeSearch(mesh, places);
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [edge, n] : edges) pairs.push_back(edge);
+  return EdgeSearch(mesh, pairs);
 }
 
 }  // namespace
@@ -27,9 +27,9 @@ Rim::Rim(const TriangleMesh& mesh) : mesh_(mesh) {
 void Rim::add(int from, int to, int n) {
   if (from == to || n == 0) return;
   const bool up = from < to;
-  const auto place = edges_.try_emplace(up ? Edge(from, to) : Edge(to, from), 0).first;
-  place->second += up ? n : -n;
-  if (place->second == 0) edges_.erase(place);
+  const auto position = edges_.try_emplace(up ? Edge(from, to) : Edge(to, from), 0).first;
+  position->second += up ? n : -n;
+  if (position->second == 0) edges_.erase(position);
 }
 
 void Rim::fill(int a, int b, int c, int n) {
@@ -110,20 +110,20 @@ std::vector<std::vector<int>> Rim::takeLoops() {
   edges_.clear();
   std::vector<std::vector<int>> loops;
   for (auto& [start, first] : next) {
-    std::vector<int> way;
-    std::map<int, std::size_t> place;  // index in `way`
+    std::vector<int> path;
+    std::map<int, std::size_t> position;  // index in `path`
     int at = start;
-    while (!next[at].empty() || !way.empty()) {
-      const auto [seen, is_new] = place.try_emplace(at, way.size());
+    while (!next[at].empty() || !path.empty()) {
+      const auto [seen, is_new] = position.try_emplace(at, path.size());
       if (!is_new) {
         const std::size_t begin = seen->second;
-        loops.emplace_back(way.begin() + std::ptrdiff_t(begin), way.end());
-        for (std::size_t i = begin; i < way.size(); ++i) place.erase(way[i]);
-        way.resize(begin);
-        if (way.empty() && next[at].empty()) break;
+        loops.emplace_back(path.begin() + std::ptrdiff_t(begin), path.end());
+        for (std::size_t i = begin; i < path.size(); ++i) position.erase(path[i]);
+        path.resize(begin);
+        if (path.empty() && next[at].empty()) break;
         continue;
       }
-      way.push_back(at);
+      path.push_back(at);
       const int to = next[at].back();
       next[at].pop_back();
       at = to;

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "edge_search.h"
+#include "geometry/corners.h"
 #include "sdf_ccd/common/cancel.h"
 #include "triangle.h"
-#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {

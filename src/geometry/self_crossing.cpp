@@ -8,15 +8,15 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include "common/parallel_for.h"
+#include "cut_test.h"
 #include "mesh_edges.h"
-#include "triangle_cut.h"
 
 namespace sdf_ccd {
 namespace {
 
 /// Where the segment passes through the triangle.
 std::optional<Vector3d> piercing(const Vector3d& a, const Vector3d& b, const Corners& t) {
-  const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Vector3d normal = areaNormal(t);
   const double at_a = normal.dot(a - t[0]), at_b = normal.dot(b - t[0]);
   if (at_a == at_b || at_a * at_b > 0.0) return std::nullopt;
   const Vector3d p = a + at_a / (at_a - at_b) * (b - a);
@@ -70,11 +70,8 @@ bool anyCut(const TriangleMesh& mesh, const TriangleTree& tree, const Test& test
   parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     if (found) return;
     const int triangle = static_cast<int>(i);
-    const Corners c = cornersOf(mesh, triangle);
-    const Vector3d center = (c[0] + c[1] + c[2]) / 3.0;
-    const double radius = std::max({(c[0] - center).norm(), (c[1] - center).norm(), (c[2] - center).norm()});
     std::vector<int>& near = near_of_thread.local();
-    tree.trianglesWithin(center, radius + eps, near);
+    tree.trianglesNear(cornersOf(mesh, triangle), eps, near);
     for (const int other : near) {
       if (other <= triangle || !cut(mesh, triangle, other, eps) || !test(triangle, other)) continue;
       found = true;

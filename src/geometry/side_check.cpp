@@ -15,14 +15,14 @@ SideCheck::SideCheck(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {
   counts_ = (box.sizes() / cell_).array().ceil().max(1.0).cast<int>();
   origin_ = box.center() - 0.5 * cell_ * counts_.cast<double>();
   winding_.resize(std::size_t(counts_.prod()));
-  forEachCell([&](const Vector3i& c) { winding_[index(c)] = tree_.windingNumber(center(c)); });
+  forEachPoint(counts_, [&](const Vector3i& c) { winding_[index(c)] = tree_.windingNumber(center(c)); });
 }
 
 std::vector<Vector3i> SideCheck::missing(Openings& openings) const {
   const TriangleTree closed(merged(mesh_, openings.caps));
   std::vector<Vector3i> missing;
   int inside = 0, wrong = 0;
-  forEachCell([&](const Vector3i& c) {
+  forEachPoint(counts_, [&](const Vector3i& c) {
     checkCancelled();
     // Cells next to a surface are skipped: their side depends on that surface alone.
     if (closed.closestPoint(center(c), 0.1 * cell_).triangle >= 0) return;
@@ -44,10 +44,10 @@ void SideCheck::addVoxels(const std::vector<Vector3i>& cells, Openings& openings
   for (const Vector3i& c : cells) taken[index(c)] = 1;
   std::map<std::array<int, 3>, int> corners;
   const auto corner = [&](const Vector3i& c) {
-    const auto [place, is_new] =
+    const auto [entry, is_new] =
         corners.try_emplace({c.x(), c.y(), c.z()}, static_cast<int>(openings.caps.vertices.size()));
     if (is_new) openings.caps.vertices.push_back(origin_ + cell_ * c.cast<double>());
-    return place->second;
+    return entry->second;
   };
   for (const Vector3i& c : cells) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/lattice.h"
 #include "geometry/openings.h"
 #include "geometry/triangle_tree.h"
 
@@ -25,15 +26,7 @@ class SideCheck {
   static constexpr int kCells = 20;  // along the longest side
 
   Vector3d center(const Vector3i& c) const { return origin_ + cell_ * (c.cast<double>().array() + 0.5).matrix(); }
-  std::size_t index(const Vector3i& c) const {
-    return (std::size_t(c.z()) * counts_.y() + c.y()) * counts_.x() + c.x();
-  }
-  template <typename Visit>
-  void forEachCell(Visit visit) const {
-    for (Vector3i c(0, 0, 0); c.z() < counts_.z(); ++c.z())
-      for (c.y() = 0; c.y() < counts_.y(); ++c.y())
-        for (c.x() = 0; c.x() < counts_.x(); ++c.x()) visit(c);
-  }
+  std::size_t index(const Vector3i& c) const { return indexIn(counts_, c); }
 
   const TriangleMesh& mesh_;
   TriangleTree tree_;

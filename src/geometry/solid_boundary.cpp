@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "common/counted.h"
 #include "common/parallel_for.h"
 #include "triangle_cutter.h"
 
@@ -59,7 +60,7 @@ class BoundaryWriter {
     for (const SurfacePart& part : parts) {
       if (part.sides != sides) continue;
       for (const auto& t : part.piece.triangles()) {
-        const auto place = [&](int k) -> const Vector3d& { return part.piece.corners()[t[k]].place; };
+        const auto place = [&](int k) -> const Vector3d& { return part.piece.corners()[t[k]].point; };
         area += 0.5 * (place(1) - place(0)).cross(place(2) - place(0)).norm();
       }
     }
@@ -83,7 +84,7 @@ class BoundaryWriter {
     std::vector<int> vertices;
     for (const FlatCorner& corner : part.piece.corners()) {
       vertices.push_back(corner.vertex >= 0 ? corner.vertex : static_cast<int>(boundary_.vertices.size()));
-      if (corner.vertex < 0) boundary_.vertices.push_back(corner.place);
+      if (corner.vertex < 0) boundary_.vertices.push_back(corner.point);
     }
     for (const auto& t : part.piece.triangles()) {
       add({vertices[t[0]], vertices[t[1]], vertices[t[2]]}, part.sides, part.tells_sides);
@@ -105,8 +106,8 @@ class BoundaryWriter {
 /// budget that is enough for most; those that need more start again with four times the budget, and so on, until the
 /// total budget is spent. So a few expensive triangles do not use up the budget of the many, and many triangles that
 /// cannot be decided cost no more than the total.
-std::vector<std::vector<SurfacePart>> partsOf(std::vector<int> cut, const TriangleCuts& cuts,
-                                              const TriangleCutter& cutter, const SolidLimits& limits) {
+std::vector<std::vector<SurfacePart>> partsOf(std::vector<int> cut, const CutLists& cuts, const TriangleCutter& cutter,
+                                              const SolidLimits& limits) {
   using Cost = TriangleCutter::Cost;
   constexpr Cost kFirst{1'000, 10'000};
   constexpr std::size_t kMore = 4;
@@ -143,7 +144,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
     return;
   }
   const SurfaceTolerance tolerance = surfaceTolerance(mesh);
-  const TriangleCuts cuts = triangleCuts(mesh, *all, tolerance, limits.pairs);
+  const CutLists cuts = cutLists(mesh, *all, tolerance, limits.pairs);
   const std::vector<Sides> sides = sidesOfUncut(mesh, *all, interior_, cuts, tolerance);
   separates_.resize(sides.size());
   std::transform(sides.begin(), sides.end(), separates_.begin(), [](Sides s) { return s == Sides::kOutward; });
@@ -185,7 +186,7 @@ std::string summary(const SolidReport& report) {
   text.precision(2);
   const auto add = [&](int count, const std::string& what) {
     if (count == 0) return;
-    text << (text.tellp() > 0 ? ", " : "") << count << (count == 1 ? " triangle " : " triangles ") << what;
+    text << (text.tellp() > 0 ? ", " : "") << counted(count, "triangle") << " " << what;
   };
   add(report.dropped, "inside the solid removed");
   add(report.clipped, "clipped into " + std::to_string(report.pieces));

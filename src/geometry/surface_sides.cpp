@@ -10,36 +10,34 @@ namespace sdf_ccd {
 namespace {
 
 /// The middle of a triangle, and how far from the edges it is.
-SideTest::Place middle(const TriangleMesh& mesh, int triangle) {
-  const Vector3i& t = mesh.triangles[triangle];
-  const Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+SideTest::PiecePoint middle(const TriangleMesh& mesh, int triangle) {
+  const Corners c = cornersOf(mesh, triangle);
   const Vector3d area_normal = areaNormal(mesh, triangle);
-  const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  return {(a + b + c) / 3.0, area_normal.normalized(), area_normal.norm() / longest / 3.0, triangle};
+  return {centroid(c), area_normal.normalized(), area_normal.norm() / longestEdge(c) / 3.0, triangle};
 }
 
 }  // namespace
 
-Sides SideTest::at(const Place& place, const std::vector<int>& layers, std::size_t* visited) const {
+Sides SideTest::at(const PiecePoint& piece, const std::vector<int>& layers, std::size_t* visited) const {
   thread_local std::vector<int> near;
-  double free = 0.1 * place.clearance;
-  tree_.trianglesWithin(place.point, free + tolerance_.closest, near);
+  double free = 0.1 * piece.clearance;
+  tree_.trianglesWithin(piece.point, free + tolerance_.closest, near);
   if (visited) *visited += near.size();
   for (const int other : near) {
-    if (other == place.triangle || std::binary_search(layers.begin(), layers.end(), other)) continue;
+    if (other == piece.triangle || std::binary_search(layers.begin(), layers.end(), other)) continue;
     const MeasuredTriangle& t = tree_.triangle(other);
-    free = std::min(free, (t.closest(place.point) - place.point).norm() - closestError(t.a(), t.b(), t.c()));
+    free = std::min(free, (t.closest(piece.point) - piece.point).norm() - closestError(t.corners()));
   }
   const double step = 0.5 * free;
   if (step <= 4.0 * tolerance_.layer) return Sides::kUnknown;
-  const bool front = interior_.contains(place.point + step * place.normal, visited);
-  const bool back = interior_.contains(place.point - step * place.normal, visited);
+  const bool front = interior_.contains(piece.point + step * piece.normal, visited);
+  const bool back = interior_.contains(piece.point - step * piece.normal, visited);
   if (front) return back ? Sides::kInterior : Sides::kInward;
   return back ? Sides::kOutward : Sides::kSheet;
 }
 
 std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
-                                const TriangleCuts& cuts, const SurfaceTolerance& tolerance) {
+                                const CutLists& cuts, const SurfaceTolerance& tolerance) {
   const std::size_t count = mesh.triangles.size();
   std::vector<std::uint8_t> uncut(count, 0);
   for (std::size_t i = 0; i < count; ++i) {

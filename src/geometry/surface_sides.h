@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cut_lists.h"
 #include "geometry/interior.h"
-#include "triangle_cuts.h"
 
 namespace sdf_ccd {
 
@@ -27,7 +27,7 @@ class SideTest {
       : tree_(tree), interior_(interior), tolerance_(tolerance) {}
 
   /// A point of a piece.
-  struct Place {
+  struct PiecePoint {
     Vector3d point;
     Vector3d normal;   ///< of length one
     double clearance;  ///< least distance to the piece's border [m]
@@ -39,7 +39,7 @@ class SideTest {
   /// triangle.
   /// @param layers   triangles (ascending) that lie on all of the piece, and are taken as one with it.
   /// @param visited  if given, the number of visited nodes and triangles is added to it.
-  Sides at(const Place& place, const std::vector<int>& layers, std::size_t* visited = nullptr) const;
+  Sides at(const PiecePoint& piece, const std::vector<int>& layers, std::size_t* visited = nullptr) const;
 
  private:
   const TriangleTree& tree_;
@@ -52,6 +52,6 @@ class SideTest {
 /// If two triangles share an edge with no third one, and nothing cuts them, nothing lies between them just before the
 /// surface, so the winding number is the same there. One triangle therefore decides for a connected set.
 std::vector<Sides> sidesOfUncut(const TriangleMesh& mesh, const TriangleTree& tree, const Interior& interior,
-                                const TriangleCuts& cuts, const SurfaceTolerance& tolerance);
+                                const CutLists& cuts, const SurfaceTolerance& tolerance);
 
 }  // namespace sdf_ccd

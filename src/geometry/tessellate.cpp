@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "common/pi.h"
 #include "sdf_ccd/geometry/primitive.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kMaxTriangles = 50'000'000;
 
 TriangleMesh icosahedron(double radius) {
@@ -34,12 +34,12 @@ TriangleMesh refined(const TriangleMesh& mesh, double radius) {
   const auto middle = [&](int a, int b) {
     const auto [low, high] = std::minmax(a, b);
     const std::uint64_t key = static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
-    const auto [place, is_new] = middles.try_emplace(key, static_cast<int>(result.vertices.size()));
+    const auto [entry, is_new] = middles.try_emplace(key, static_cast<int>(result.vertices.size()));
     if (is_new) {
       const Vector3d sum = result.vertices[a] + result.vertices[b];
       result.vertices.push_back(sum * (radius / sum.norm()));
     }
-    return place->second;
+    return entry->second;
   };
   for (const Vector3i& t : mesh.triangles) {
     const int a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);

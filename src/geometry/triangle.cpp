@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pi.h"
+
 namespace sdf_ccd {
 namespace {
 
 /// Below this square of height over length, Ericson's tests lose more than half their digits.
 constexpr double kSliver = 1e-8;
 
-Vector3d closestByRegions(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+Vector3d closestByRegions(const Corners& triangle, const Vector3d& p) {
+  const auto& [a, b, c] = triangle;
   const Vector3d ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return a;
@@ -29,13 +32,15 @@ Vector3d closestByRegions(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return a + ab * (vb * scale) + ac * (vc * scale);
 }
 
-bool isSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+bool isSliver(const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
   const Vector3d ab = b - a, ac = c - a;
   const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   return !(ab.cross(ac).squaredNorm() > kSliver * longest2 * longest2);
 }
 
-Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
+Vector3d closestOnSliver(const Corners& triangle, const Vector3d& p) {
+  const auto& [a, b, c] = triangle;
   Vector3d best = closestOnSegment(a, b, p);
   const auto offer = [&](const Vector3d& q) {
     if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
@@ -55,11 +60,12 @@ Vector3d closestOnSliver(const Vector3d& a, const Vector3d& b, const Vector3d& c
 }
 
 /// About the centre of the triangle's box, projected onto the triangle's plane; for a sliver about the centre itself.
-FlatCylinder discAbout(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool sliver) {
+FlatCylinder discAbout(const Corners& triangle, bool sliver) {
+  const auto& [a, b, c] = triangle;
   const Vector3d middle = 0.5 * (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c));
-  const Vector3d normal = sliver ? Vector3d::Zero() : Vector3d((b - a).cross(c - a).normalized());
+  const Vector3d normal = sliver ? Vector3d::Zero() : Vector3d(areaNormal(triangle).normalized());
   FlatCylinder disc{middle - normal.dot(middle - a) * normal, normal};
-  for (const Vector3d& corner : {a, b, c}) disc.extend(corner);
+  for (const Vector3d& corner : triangle) disc.extend(corner);
   return disc;
 }
 
@@ -74,19 +80,19 @@ Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
   return t > 0 ? Vector3d(a + ab * t) : a;
 }
 
-Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
-  return isSliver(a, b, c) ? closestOnSliver(a, b, c, p) : closestByRegions(a, b, c, p);
+Vector3d closestOnTriangle(const Corners& triangle, const Vector3d& p) {
+  return isSliver(triangle) ? closestOnSliver(triangle, p) : closestByRegions(triangle, p);
 }
 
-MeasuredTriangle::MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
-    : a_(a), b_(b), c_(c), sliver_(isSliver(a, b, c)), disc_(discAbout(a, b, c, sliver_)) {}
+MeasuredTriangle::MeasuredTriangle(const Corners& corners)
+    : corners_(corners), sliver_(isSliver(corners)), disc_(discAbout(corners, sliver_)) {}
 
 Vector3d MeasuredTriangle::closest(const Vector3d& p) const {
-  return sliver_ ? closestOnSliver(a_, b_, c_, p) : closestByRegions(a_, b_, c_, p);
+  return sliver_ ? closestOnSliver(corners_, p) : closestByRegions(corners_, p);
 }
 
-void SolidAngleSum::add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d pa = a - p_, pb = b - p_, pc = c - p_;
+void SolidAngleSum::add(const Corners& triangle) {
+  const Vector3d pa = triangle[0] - p_, pb = triangle[1] - p_, pc = triangle[2] - p_;
   const double la = pa.norm(), lb = pb.norm(), lc = pc.norm();
   const double y = pa.dot(pb.cross(pc));
   const double x = la * lb * lc + pa.dot(pb) * lc + pb.dot(pc) * la + pc.dot(pa) * lb;
@@ -106,8 +112,7 @@ void SolidAngleSum::add(const Vector3d& a, const Vector3d& b, const Vector3d& c)
 }
 
 double SolidAngleSum::value() const {
-  constexpr double kTwoPi = 6.28318530717958647692;
-  return turns_ + std::atan2(imaginary_, real_) / kTwoPi;
+  return turns_ + std::atan2(imaginary_, real_) / (2.0 * kPi);
 }
 
 }  // namespace sdf_ccd

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "geometry/corners.h"
 #include "geometry/flat_cylinder.h"
-#include "sdf_ccd/common/eigen_types.h"
 
-/// Queries of a single triangle abc, which may be degenerate (a segment, a point).
+/// Queries of a single triangle, which may be degenerate (a segment, a point).
 namespace sdf_ccd {
 
 /// Closest point of the segment ab to p.
@@ -13,12 +13,12 @@ Vector3d closestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& 
 ///
 /// Source: Ericson 2005, Real-Time Collision Detection, §5.1.5; slivers are checked against their edges, because
 /// the Voronoi tests of that method cancel there.
-Vector3d closestOnTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p);
+Vector3d closestOnTriangle(const Corners& triangle, const Vector3d& p);
 
 /// A triangle with precomputed data for many closest-point queries.
 class MeasuredTriangle {
  public:
-  MeasuredTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+  explicit MeasuredTriangle(const Corners& corners);
 
   /// As closestOnTriangle().
   Vector3d closest(const Vector3d& p) const;
@@ -33,12 +33,10 @@ class MeasuredTriangle {
   const Vector3d& center() const { return disc_.center; }
   double radius() const { return disc_.radius; }
 
-  const Vector3d& a() const { return a_; }
-  const Vector3d& b() const { return b_; }
-  const Vector3d& c() const { return c_; }
+  const Corners& corners() const { return corners_; }
 
  private:
-  Vector3d a_, b_, c_;
+  Corners corners_;
   bool sliver_;
   FlatCylinder disc_;  ///< in its plane; for a sliver a sphere
 };
@@ -54,7 +52,7 @@ class SolidAngleSum {
  public:
   explicit SolidAngleSum(const Vector3d& p) : p_(p) {}
 
-  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+  void add(const Corners& triangle);
 
   double value() const;
 

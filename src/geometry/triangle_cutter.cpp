@@ -237,8 +237,8 @@ class TriangleCutter::Task {
     const Vector2d middle = piece.centroid();
     const double clearance = piece.depth(middle);
     if (clearance <= 8.0 * cutter_.tolerance_.border) return Sides::kUnknown;
-    const Vector3d place = corners_[0] + middle.x() * u_ + middle.y() * v_;
-    const Sides found = cutter_.test_.at({place, normal_, clearance, triangle_}, layers, &cost_.visits);
+    const Vector3d point = corners_[0] + middle.x() * u_ + middle.y() * v_;
+    const Sides found = cutter_.test_.at({point, normal_, clearance, triangle_}, layers, &cost_.visits);
     costs_too_much_ = cost_.visits > most_.visits;
     // Faces that lie on each other all have the same sides, in either orientation. The first one is kept.
     const bool has_sides = found == Sides::kOutward || found == Sides::kInward;

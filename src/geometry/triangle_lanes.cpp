@@ -15,16 +15,16 @@ SDF_CCD_INLINE Doubles clamped(const Doubles& t, double most) {
 }
 
 /// The displacement from the closest point to the query point: in the triangle's plane, and along its normal.
-struct Way {
+struct Displacement {
   Doubles u, v, normal;
 
   SDF_CCD_INLINE Doubles squared() const { return u * u + v * v + normal * normal; }
 };
 
 /// In the plane, from the nearest of the edges' closest points; zero if the query point projects into the triangle.
-SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PointLanes& places, int k) {
-  const Doubles x = load(places.x.data() + k) - t.origin[0], y = load(places.y.data() + k) - t.origin[1],
-                z = load(places.z.data() + k) - t.origin[2];
+SDF_CCD_INLINE Displacement displacementTo(const FlatTriangle& t, const PointLanes& points, int k) {
+  const Doubles x = load(points.x.data() + k) - t.origin[0], y = load(points.y.data() + k) - t.origin[1],
+                z = load(points.z.data() + k) - t.origin[2];
   const Doubles u = t.u[0] * x + t.u[1] * y + t.u[2] * z;
   const Doubles v = t.v[0] * x + t.v[1] * y + t.v[2] * z;
   const Doubles zero = {};
@@ -52,11 +52,11 @@ SDF_CCD_INLINE Way wayTo(const FlatTriangle& t, const PointLanes& places, int k)
 
 }  // namespace
 
-FlatTriangle::FlatTriangle(const Vector3d& pa, const Vector3d& pb, const Vector3d& pc) {
-  const Vector3d ab = pb - pa, ac = pc - pa;
+FlatTriangle::FlatTriangle(const Corners& corners) {
+  const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vector3d e1 = ab.normalized(), e3 = ab.cross(ac).normalized(), e2 = e3.cross(e1).normalized();
   for (int k = 0; k < 3; ++k) {
-    origin[k] = pa[k];
+    origin[k] = corners[0][k];
     u[k] = e1[k];
     v[k] = e2[k];
     normal[k] = e3[k];
@@ -68,26 +68,27 @@ FlatTriangle::FlatTriangle(const Vector3d& pa, const Vector3d& pb, const Vector3
   inverse_ca2 = 1.0 / (c * c + height * height);
 }
 
-SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const PointLanes& places, ClosestLanes& closest) {
+SDF_CCD_LANES void offer(const FlatTriangle& t, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest) {
   const double au = t.u[0] * axis[0] + t.u[1] * axis[1] + t.u[2] * axis[2];
   const double av = t.v[0] * axis[0] + t.v[1] * axis[1] + t.v[2] * axis[2];
   const double an = t.normal[0] * axis[0] + t.normal[1] * axis[1] + t.normal[2] * axis[2];
   for (int k = 0; k < PointLanes::kCount; k += kWidth) {
-    const Way way = wayTo(t, places, k);
-    const Doubles distance2 = way.squared(), held2 = load(closest.distance2.data() + k);
-    const Doubles side = way.u * au + way.v * av + way.normal * an, held = load(closest.side.data() + k);
+    const Displacement displacement = displacementTo(t, points, k);
+    const Doubles distance2 = displacement.squared(), held2 = load(closest.distance2.data() + k);
+    const Doubles side = displacement.u * au + displacement.v * av + displacement.normal * an,
+                  held = load(closest.side.data() + k);
     store(distance2 < held2 ? side : held, closest.side.data() + k);
     store(distance2 < held2 ? distance2 : held2, closest.distance2.data() + k);
   }
 }
 
-SDF_CCD_LANES void ways(const FlatTriangle& t, const PointLanes& places, DisplacementLanes& ways) {
+SDF_CCD_LANES void displacements(const FlatTriangle& t, const PointLanes& points, DisplacementLanes& found) {
   for (int k = 0; k < PointLanes::kCount; k += kWidth) {
-    const Way way = wayTo(t, places, k);
-    store(way.squared(), ways.distance2.data() + k);
-    store(way.u * t.u[0] + way.v * t.v[0] + way.normal * t.normal[0], ways.x.data() + k);
-    store(way.u * t.u[1] + way.v * t.v[1] + way.normal * t.normal[1], ways.y.data() + k);
-    store(way.u * t.u[2] + way.v * t.v[2] + way.normal * t.normal[2], ways.z.data() + k);
+    const Displacement displacement = displacementTo(t, points, k);
+    store(displacement.squared(), found.distance2.data() + k);
+    store(displacement.u * t.u[0] + displacement.v * t.v[0] + displacement.normal * t.normal[0], found.x.data() + k);
+    store(displacement.u * t.u[1] + displacement.v * t.v[1] + displacement.normal * t.normal[1], found.y.data() + k);
+    store(displacement.u * t.u[2] + displacement.v * t.v[2] + displacement.normal * t.normal[2], found.z.data() + k);
   }
 }
 

@@ -13,7 +13,7 @@ namespace sdf_ccd {
 /// inaccurate.
 struct FlatTriangle {
   FlatTriangle() = default;
-  FlatTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+  explicit FlatTriangle(const Corners& corners);
 
   std::array<double, 3> origin, u, v, normal;  ///< of the frame: u along the first edge, of length one
   double b, c, height;
@@ -54,8 +54,8 @@ struct DisplacementLanes {
 };
 
 /// Replaces the closest points held so far where the triangle is nearer.
-void offer(const FlatTriangle& triangle, const Vector3d& axis, const PointLanes& places, ClosestLanes& closest);
+void offer(const FlatTriangle& triangle, const Vector3d& axis, const PointLanes& points, ClosestLanes& closest);
 
-void ways(const FlatTriangle& triangle, const PointLanes& places, DisplacementLanes& ways);
+void displacements(const FlatTriangle& triangle, const PointLanes& points, DisplacementLanes& found);
 
 }  // namespace sdf_ccd

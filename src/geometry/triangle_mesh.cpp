@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/number_text.h"
+#include "geometry/box_measures.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -54,8 +55,8 @@ class PointNumbers {
 
   /// The entry of a point: its number, or kNone where that belongs.
   int& slotOf(const Vector3d& p) {
-    for (std::size_t place = hashOf(p);; ++place) {
-      int& number = numbers_[place & (numbers_.size() - 1)];
+    for (std::size_t slot = hashOf(p);; ++slot) {
+      int& number = numbers_[slot & (numbers_.size() - 1)];
       if (number == kNone || points[number] == p) return number;
     }
   }
@@ -92,7 +93,7 @@ void validate(const TriangleMesh& mesh) {
   }
   const AlignedBox3d box = boundingBox(mesh);
   const double extent = box.sizes().maxCoeff();
-  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
+  const double reach = largestCoordinate(box);
   if (!(extent <= 1e6) || !(reach <= 1e9)) {
     throw std::invalid_argument("the mesh is too large or too far from the origin: extent " + numberText(extent) +
                                 " m (limit 1e6), largest coordinate " + numberText(reach) + " m (limit 1e9)");

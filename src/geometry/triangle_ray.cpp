@@ -24,10 +24,11 @@ double entry(const AlignedBox3d& box, const Vector3d& p, const Vector3d& inverse
 /// Distance along the ray to the triangle, infinity if it is missed (Möller & Trumbore 1997) by more than `slack`
 /// beyond a side's line.
 double hit(const MeasuredTriangle& t, const Vector3d& p, const Vector3d& direction, double slack) {
-  const Vector3d ab = t.b() - t.a(), ac = t.c() - t.a(), across = direction.cross(ac);
+  const auto& [a, b, c] = t.corners();
+  const Vector3d ab = b - a, ac = c - a, across = direction.cross(ac);
   const double determinant = ab.dot(across);
   if (determinant == 0.0) return kInfinity;
-  const Vector3d from = p - t.a(), along = from.cross(ab);
+  const Vector3d from = p - a, along = from.cross(ab);
   const double u = from.dot(across) / determinant, v = direction.dot(along) / determinant;
   constexpr double kMin = -1e-12;
   double least_u = kMin, least_v = kMin, least_w = kMin;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/compiler_lanes.h"
+#include "geometry/box_measures.h"
 #include "geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -22,10 +23,6 @@ struct Pending {
   std::int32_t first, count;  ///< as in a quad
 };
 
-double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
-  return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0).squaredNorm();
-}
-
 }  // namespace
 
 TriangleTree::ClosestPoint TriangleTree::closestPoint(const Vector3d& p, double max_distance) const {
@@ -35,7 +32,7 @@ TriangleTree::ClosestPoint TriangleTree::closestPoint(const Vector3d& p, double 
 }
 
 TriangleTree::ClosestPoint TriangleTree::closestPointNear(const Vector3d& p, int likely) const {
-  const Vector3d q = triangles_[places_[likely]].closest(p);
+  const Vector3d q = triangles_[positions_[likely]].closest(p);
   const double distance2 = (q - p).squaredNorm();
   ClosestPoint best{q, std::sqrt(distance2), likely};
   search(p, distance2, best);
@@ -141,9 +138,7 @@ TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, doubl
       continue;
     }
     sum.visited += static_cast<std::size_t>(node.count);
-    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
-      near.add(triangles_[i].a(), triangles_[i].b(), triangles_[i].c());
-    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) near.add(triangles_[i].corners());
   }
   sum.value += near.value();
   return sum;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/infinity.h"
+#include "geometry/corners.h"
 #include "geometry/flat_cylinder.h"
 #include "geometry/triangle.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
@@ -29,7 +30,7 @@ class TriangleTree {
   };
 
   /// A triangle by its index in the mesh.
-  const MeasuredTriangle& triangle(int i) const { return triangles_[places_[i]]; }
+  const MeasuredTriangle& triangle(int i) const { return triangles_[positions_[i]]; }
 
   /// Closest point of the mesh to p, if nearer than `max_distance`; triangle is -1 (distance `max_distance`) if not.
   ClosestPoint closestPoint(const Vector3d& p, double max_distance = kInfinity) const;
@@ -40,11 +41,17 @@ class TriangleTree {
 
   /// Distance of p from one triangle of the mesh [m].
   double distanceTo(int triangle, const Vector3d& p) const {
-    return (triangles_[places_[triangle]].closest(p) - p).norm();
+    return (triangles_[positions_[triangle]].closest(p) - p).norm();
   }
 
   /// Triangles within `radius` of p: replaces `triangles` by their indices in the mesh, in no order.
   void trianglesWithin(const Vector3d& p, double radius, std::vector<int>& triangles) const;
+
+  /// The same for the smallest ball about a triangle's centroid that holds it, made larger by `margin` [m].
+  void trianglesNear(const Corners& c, double margin, std::vector<int>& triangles) const {
+    const Vector3d center = centroid(c);
+    trianglesWithin(center, farthestDistance(c, center) + margin, triangles);
+  }
 
   /// The first triangle, by its index in the mesh, that the ray from p along the unit vector `direction` meets farther
   /// than `min_distance` from p; -1 if there is none. Up to rounding: a ray along an edge may meet either side or none.
@@ -126,11 +133,11 @@ class TriangleTree {
   BoundedNumber boundedNumber(const Vector3d& p, double accuracy, double bound) const;
 
   std::vector<Node> nodes_;
-  std::vector<Quad> quads_;            ///< the root's first; none if it is a leaf
-  std::vector<Expansion> expansions_;  ///< one per node
-  std::vector<Triangle> triangles_;    ///< in tree order
-  std::vector<std::int32_t> ids_;      ///< index in the mesh of each of `triangles_`
-  std::vector<std::int32_t> places_;   ///< index in `triangles_` of each of the mesh's
+  std::vector<Quad> quads_;              ///< the root's first; none if it is a leaf
+  std::vector<Expansion> expansions_;    ///< one per node
+  std::vector<Triangle> triangles_;      ///< in tree order
+  std::vector<std::int32_t> ids_;        ///< index in the mesh of each of `triangles_`
+  std::vector<std::int32_t> positions_;  ///< index in `triangles_` of each of the mesh's
 };
 
 template <typename MayMatter, typename Visit>

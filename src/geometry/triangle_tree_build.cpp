@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/infinity.h"
 #include "common/resize_in_steps.h"
 #include "geometry/binned_split.h"
 #include "geometry/triangle_tree.h"
@@ -43,13 +44,12 @@ class TriangleTree::Builder {
     tree_.triangles_.reserve(count);
     for (const std::int32_t id : tree_.ids_) {
       checkNowAndThen(tree_.triangles_.size());
-      const Vector3i& t = mesh_.triangles[id];
-      tree_.triangles_.emplace_back(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+      tree_.triangles_.emplace_back(cornersOf(mesh_, id));
     }
-    resizeInSteps(tree_.places_, count);
+    resizeInSteps(tree_.positions_, count);
     for (int i = 0; i < count; ++i) {
       checkNowAndThen(i);
-      tree_.places_[tree_.ids_[i]] = i;
+      tree_.positions_[tree_.ids_[i]] = i;
     }
     resizeInSteps(tree_.expansions_, tree_.nodes_.size());
     resizeInSteps(cylinders_, tree_.nodes_.size());
@@ -127,7 +127,7 @@ class TriangleTree::Builder {
     FlatCylinder result{expansion.center, expansion.dipole.normalized()};
     for (const Triangle* t = begin; t != end; ++t) {
       checkNowAndThen(t - begin);
-      for (const Vector3d& corner : {t->a(), t->b(), t->c()}) result.extend(corner);
+      for (const Vector3d& corner : t->corners()) result.extend(corner);
     }
     return result;
   }
@@ -139,7 +139,7 @@ class TriangleTree::Builder {
     for (std::size_t i = 0; i < parents.size(); ++i) {
       checkNowAndThen(i);
       Quad& quad = tree_.quads_.emplace_back();
-      for (auto& lane : quad.low) lane.fill(std::numeric_limits<double>::infinity());
+      for (auto& lane : quad.low) lane.fill(kInfinity);
       int lane = 0;
       for (const std::int32_t node : below(parents[i])) {
         const FlatCylinder& cylinder = cylinders_[node];

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/infinity.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -13,7 +15,7 @@ class Lattice {
  public:
   explicit Lattice(const TriangleMesh& mesh) : mesh_(mesh), box_(boundingBox(mesh)) {
     const Vector3i& t = mesh.triangles.front();
-    size_ = std::numeric_limits<double>::infinity();
+    size_ = kInfinity;
     for (int k = 0; k < 3; ++k) size_ = std::min(size_, (mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]).norm());
   }
 

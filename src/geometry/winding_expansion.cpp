@@ -10,20 +10,22 @@ TriangleTree::Expansion TriangleTree::expand(const Triangle* begin, const Triang
   Expansion result{};
   AlignedBox3d box;
   double area = 0;
+  const Vector3d& origin = begin->corners()[0];  // because the sum loses digits far from zero
   Vector3d weighted = Vector3d::Zero();
   for (const Triangle* t = begin; t != end; ++t) {
-    box.extend(t->a()).extend(t->b()).extend(t->c());
-    const double weight = (t->b() - t->a()).cross(t->c() - t->a()).norm();
+    const auto& [a, b, c] = t->corners();
+    box.extend(a).extend(b).extend(c);
+    const double weight = areaNormal(t->corners()).norm();
     area += weight;
-    // Relative to the first corner, because the sum loses digits far from the origin.
-    weighted += weight * ((t->a() - begin->a()) + (t->b() - begin->a()) + (t->c() - begin->a())) / 3;
+    weighted += weight * ((a - origin) + (b - origin) + (c - origin)) / 3;
   }
-  result.center = area > 0 ? Vector3d(begin->a() + weighted / area) : box.center();
+  result.center = area > 0 ? Vector3d(origin + weighted / area) : box.center();
 
   Matrix3d first = Matrix3d::Zero();  // rows: n, columns: d
   std::array<Matrix3d, 3> second = {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
   for (const Triangle* t = begin; t != end; ++t) {
-    const Vector3d a = t->a() - result.center, b = t->b() - result.center, c = t->c() - result.center;
+    const Corners& corners = t->corners();
+    const Vector3d a = corners[0] - result.center, b = corners[1] - result.center, c = corners[2] - result.center;
     result.radius2 = std::max({result.radius2, a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
     const Vector3d normal = (b - a).cross(c - a) / 2;  // area · n
     const Vector3d sum = a + b + c;

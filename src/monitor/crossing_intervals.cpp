@@ -9,7 +9,7 @@ namespace {
 constexpr int kTimes = 4;                 // parts of a gap, at whose ends crossings are looked for
 constexpr std::size_t kMaxIntervals = 8;  // where there are more, in the middle of the gaps between them only
 constexpr std::size_t kMaxGaps = 100;     // of which about so many are tested, evenly
-constexpr double kRounding = 1e-9;        // of the span; shorter gaps are none
+constexpr double kNoGap = 1e-9;           // of the span; shorter gaps are none
 
 class Gap {
  public:
@@ -66,7 +66,7 @@ void addCrossings(SurfacePair& surfaces, double motion_error, SeparationMemory& 
     if (is_between && i % stride != 0) continue;
     const Interval gap = gapAt(i);
     bool is_closed = true;
-    if (gap.exit - gap.enter > kRounding * (end - start)) {
+    if (gap.exit - gap.enter > kNoGap * (end - start)) {
       const Gap tested(gap, i > 0, i < known, is_between && known > kMaxIntervals ? 2 : kTimes, crosses);
       tested.addTo(intervals);
       is_closed = tested.isClosed();
@@ -75,7 +75,7 @@ void addCrossings(SurfacePair& surfaces, double motion_error, SeparationMemory& 
     for (std::size_t k = closed.value_or(i) + 1; is_closed && k < i; ++k) intervals.push_back(gapAt(k));
     closed = is_closed ? std::make_optional(i) : std::nullopt;
   }
-  mergeIntervals(intervals, kRounding * (end - start));
+  mergeIntervals(intervals, kNoGap * (end - start));
 }
 
 }  // namespace sdf_ccd

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/triangle.h"
-#include "geometry/triangle_cut.h"
 #include "query/triangle_pair.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -97,7 +96,7 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
     ++tests;
     const Corners t_B = cornersOf(b.surface->mesh, triangle_b);
     const std::optional<Vector3d> p_B = crossingPoint(t_A, t_B, error);
-    if (p_B) found = {*p_B, (t_B[1] - t_B[0]).cross(t_B[2] - t_B[0]).normalized()};
+    if (p_B) found = {*p_B, areaNormal(t_B).normalized()};
   };
   const auto near_b = [&](const Vector3d& center_A, double radius) {
     cancel.check();
@@ -108,7 +107,7 @@ std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const
     for (Vector3d& p : t_A) p = X_BA * p;
     const auto near_a = [&](const Vector3d& center_B, double radius) {
       cancel.check();
-      return !done() && (closestOnTriangle(t_A[0], t_A[1], t_A[2], center_B) - center_B).norm() <= radius;
+      return !done() && (closestOnTriangle(t_A, center_B) - center_B).norm() <= radius;
     };
     b.surface->tree.forEachTriangle(near_a, [&](int triangle_b) { test(t_A, triangle_b); });
   });

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "common/infinity.h"
 #include "sdf_ccd/common/cancel.h"
 #include "two_body_motion.h"
 
@@ -33,7 +33,7 @@ class MotionSampler::Run {
     const double start = motion_.times.back(), middle = 0.5 * (start + end);
     std::vector<Isometry3d>& X_middle = memory_.X_middle_[static_cast<std::size_t>(halvings_left)];
     source_.poses_at(middle, X_middle);
-    memory_.jerk_.assign(balls_.size(), std::numeric_limits<double>::infinity());
+    memory_.jerk_.assign(balls_.size(), kInfinity);
     source_.jerk_bounds(start, end, memory_.jerk_);
     memory_.deviation_.assign(balls_.size(), 0.0);
     double worst = 0.0;
@@ -65,7 +65,7 @@ class MotionSampler::Run {
     const ScrewMotion screw(X_start, X_end);
     const double bound =
         maxDisplacement(X_middle, screw.pose(0.5), balls_[body]) + kRemainder * (jerk + screw.maxJerk(balls_[body]));
-    return std::isnan(bound) ? std::numeric_limits<double>::infinity() : bound;
+    return std::isnan(bound) ? kInfinity : bound;
   }
 
   MotionSampler& memory_;

@@ -9,10 +9,8 @@ namespace {
 
 constexpr double kEdge = 1e-12;  // tolerance of barycentric coordinates
 
-using Triangle = std::array<Vector3d, 3>;
-
 /// Parameter t at which the line start + t direction crosses a triangle (Möller & Trumbore 1997).
-std::optional<double> crossing(const Vector3d& start, const Vector3d& direction, const Triangle& triangle) {
+std::optional<double> crossing(const Vector3d& start, const Vector3d& direction, const Corners& triangle) {
   const Vector3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
   const Vector3d h = direction.cross(ac);
   const double determinant = ab.dot(h);
@@ -45,9 +43,7 @@ std::optional<double> ExactSurface::firstHit(const Segment& segment) const {
     surface_.tree().trianglesWithin(segment.start + middle * direction, 1.001 * (middle - at) * length, nearby);
     std::optional<double> first;
     for (const int i : nearby) {
-      const Vector3i& t = mesh().triangles[i];
-      const std::optional<double> hit =
-          crossing(segment.start, direction, {mesh().vertices[t[0]], mesh().vertices[t[1]], mesh().vertices[t[2]]});
+      const std::optional<double> hit = crossing(segment.start, direction, cornersOf(mesh(), i));
       if (hit && *hit >= at && *hit <= end && (!first || *hit < *first)) first = hit;
     }
     if (first || end == 1.0) return first;

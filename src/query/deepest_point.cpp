@@ -20,30 +20,23 @@ struct PartDepth {
   Vector3d out = Vector3d::Zero();  // outward normal: unit, or zero where there is none
 };
 
-Vector3d unitOf(const Vector3d& v) {
-  const double length = v.norm();
-  return length > 0.0 ? Vector3d(v / length) : Vector3d(Vector3d::Zero());
-}
-
 Vector3d normalOf(const MeasuredTriangle& t) {
-  return unitOf((t.b() - t.a()).cross(t.c() - t.a()));
+  return areaNormal(t.corners()).normalized();
 }
 
 PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
   if (!part.solid) {
     const FieldValue value = part.field->interpolate(p_G);
-    return {-value.value, -1, unitOf(value.gradient)};
+    return {-value.value, -1, value.gradient.normalized()};
   }
   const TriangleTree& tree = part.solid->tree();
   const TriangleTree::ClosestPoint nearest = tree.closestPoint(p_G);
   const DistanceBounds bounds = part.field->bounds(p_G);
   const bool inside = bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
-  const MeasuredTriangle& triangle = tree.triangle(nearest.triangle);
   Vector3d out = (inside ? 1.0 : -1.0) * (nearest.point - p_G);
   // On the surface (up to rounding) the outward direction is the triangle's own normal.
-  if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm())))
-    out = (triangle.b() - triangle.a()).cross(triangle.c() - triangle.a());
-  return {inside ? nearest.distance : -nearest.distance, nearest.triangle, unitOf(out)};
+  if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm()))) out = areaNormal(tree.triangle(nearest.triangle).corners());
+  return {inside ? nearest.distance : -nearest.distance, nearest.triangle, out.normalized()};
 }
 
 /// The largest of a point's depths in all elements, in the body's frame.
@@ -116,8 +109,7 @@ class DeepestSearch::Look {
     if (displacement > longest && !is_short) {
       first.end = second.start = 0.5 * (piece.start + piece.end);
     } else {
-      const Vector3d center = (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
-      if (isHidden(center, longest + piece.radius)) return;
+      if (isHidden(centroid(piece.corners), longest + piece.radius)) return;
       const int next = (edge + 1) % 3;
       first.corners[next] = second.corners[edge] = 0.5 * (piece.corners[edge] + piece.corners[next]);
       if (piece.ball >= 0) {
@@ -146,9 +138,9 @@ class DeepestSearch::Look {
 
   /// Upper bound of the distance from a triangle with corners on a ball to the part of the surface over it.
   double capHeight(const Piece& piece) const {
-    const auto& [a, b, c] = piece.corners;
     const RoundedTriangle& ball = ballOf(piece.ball);
-    const double to_plane = std::abs(unitOf((b - a).cross(c - a)).dot(a - ball.corners[0]));
+    const Vector3d normal = areaNormal(piece.corners).normalized();
+    const double to_plane = std::abs(normal.dot(piece.corners[0] - ball.corners[0]));
     return ball.radius - std::min(to_plane, ball.radius) + 1e-12 * ball.radius;
   }
 
@@ -301,8 +293,7 @@ class DeepestSearch::Look {
     const TriangleTree& tree = part.solid->tree();
     double h = -radius;
     for (const int i : search_.near_) {
-      const MeasuredTriangle& t = tree.triangle(i);
-      h = std::max({h, n.dot(t.a() - c), n.dot(t.b() - c), n.dot(t.c() - c)});
+      for (const Vector3d& p : tree.triangle(i).corners()) h = std::max(h, n.dot(p - c));
     }
     if (!(h < radius) || n.isZero()) return std::nullopt;
     Corners6 behind;

@@ -112,7 +112,7 @@ class Simplex {
 
  private:
   Vector3d nearestOf(int i, int j, int k) const {
-    return closestOnTriangle(points_[i], points_[j], points_[k], Vector3d::Zero());
+    return closestOnTriangle({points_[i], points_[j], points_[k]}, Vector3d::Zero());
   }
 
   std::array<Vector3d, 4> points_;

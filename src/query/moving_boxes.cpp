@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "common/infinity.h"
 #include "geometry/triangle.h"
 
 namespace sdf_ccd {
@@ -66,7 +66,7 @@ template <typename ReachOf>
 double support(const BoxTree& tree, const Floats& direction, const MotionAlong& motion, double limit,
                const ReachOf& reachOf) {
   constexpr int kMaxBoxes = 96;
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kNone = kInfinity;
   std::array<std::int32_t, kMaxBoxes> pending;
   int size = 0, visited = 0;
   double best = -kNone;
@@ -102,17 +102,16 @@ double reachAlong(const Vector3d& n, const Corners& t) {
 /// @param triangle  from the origin of the node's tree.
 void sharpen(const RoundedTriangle& triangle, float triangle_reach, const BoxTree::Node& node, const BoxMotion& motion,
              float cut, NearBoxes& found) {
-  const auto& [a, b, c] = triangle.corners;
   for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
     const int i = __builtin_ctz(near);
     if (node.reach[i] > triangle_reach) continue;
     const Floats center = {node.center[0][i], node.center[1][i], node.center[2][i]};
-    const Vector3d p(center[0], center[1], center[2]), away = p - closestOnTriangle(a, b, c, p);
+    const Vector3d p(center[0], center[1], center[2]), away = p - closestOnTriangle(triangle.corners, p);
     const double distance = away.norm();
     if (!(distance > 0.0)) continue;
     const Vector3d n = away / distance;
     const Floats moved = sum(times(motion.turn, center), motion.shift);
-    const double gap = n.dot(p) - std::max({n.dot(a), n.dot(b), n.dot(c)}) - triangle.radius - node.reach[i] -
+    const double gap = n.dot(p) - reachAlong(n, triangle.corners) - triangle.radius - node.reach[i] -
                        std::abs(n.dot(Vector3d(moved[0], moved[1], moved[2]))) - motion.any -
                        motion.any_per_reach * node.reach[i];
     if (!(gap > found.gaps[i])) continue;

@@ -1,10 +1,10 @@
 #include "sdf_ccd/query/segment_query.h"
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "common/infinity.h"
 #include "representation_queries.h"
 #include "segment_reach.h"
 
@@ -60,7 +60,7 @@ SweptSide sweptSide(const DistanceField& field, const Segment& segment, const Sw
 }
 
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius) {
-  return sweptSide(field, segment, {radius, std::numeric_limits<double>::infinity()}) != SweptSide::kOutside;
+  return sweptSide(field, segment, {radius, kInfinity}) != SweptSide::kOutside;
 }
 
 void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,

@@ -91,7 +91,7 @@ class SeparationQuery {
     ++tests_;
     const Corners &t_a = a_.triangle(pair.a).corners, t_b = placed(pair.b, X_AB);
     std::optional<Vector3d> point = crossingPoint(t_a, t_b, crossing_margin_);
-    Vector3d normal = (t_a[1] - t_a[0]).cross(t_a[2] - t_a[0]);
+    Vector3d normal = areaNormal(t_a);
     const double round = radii(pair) - crossing_margin_;
     if (!point && round > 0.0 && radii(pair) > 0.0) {
       const ClosestPair closest = closestPoints(t_a, t_b);

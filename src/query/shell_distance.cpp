@@ -1,15 +1,16 @@
 #include "query/shell_distance.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 
 ShellDistance shellDistance(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
                             const Isometry3d& X_FP, double max_distance, std::vector<int>& pending) {
   ShellDistance nearest;
-  nearest.value = std::numeric_limits<double>::infinity();
-  double low = std::numeric_limits<double>::infinity();  // lower bound of the distances of the points examined
+  nearest.value = kInfinity;
+  double low = kInfinity;  // lower bound of the distances of the points examined
   const auto cut = [&] { return std::min(max_distance, nearest.value); };
   pending.clear();
   if (!tree.nodes.empty()) pending.push_back(0);

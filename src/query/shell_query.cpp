@@ -1,8 +1,8 @@
 #include "shell_query.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "common/infinity.h"
 #include "prefetch.h"
 #include "representation_queries.h"
 #include "sdf_ccd/common/cancel.h"
@@ -208,8 +208,8 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
 
 double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
                  double slack) {
-  double nearest = std::numeric_limits<double>::infinity();  // smallest lower bound of the points visited
-  double bound = nearest;                                    // of the points in nodes that were skipped
+  double nearest = kInfinity;  // smallest lower bound of the points visited
+  double bound = nearest;      // of the points in nodes that were skipped
   if (tree.nodes.empty()) return bound;
   std::vector<std::int32_t>& stack = searchWork().stack;
   stack.push_back(0);

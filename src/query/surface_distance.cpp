@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/infinity.h"
 #include "moving_boxes.h"
 #include "sdf_ccd/common/cancel.h"
 #include "triangle_pair.h"
@@ -60,8 +61,8 @@ class DistanceQuery {
   /// False only if the plane of one of the triangles separates them.
   static bool mayCross(const Corners& a, const Corners& b) {
     const auto isBeside = [](const Corners& face, const Corners& other) {
-      const Vector3d n = (face[1] - face[0]).cross(face[2] - face[0]);
-      double low = std::numeric_limits<double>::infinity(), high = -low;
+      const Vector3d n = areaNormal(face);
+      double low = kInfinity, high = -low;
       for (const Vector3d& p : other) {
         const double along = n.dot(p - face[0]);
         low = std::min(low, along);

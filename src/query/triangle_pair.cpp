@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
@@ -52,13 +53,13 @@ ClosestPair closestPoints(const Corners& a, const Corners& b) {
 
 double gapAlong(const Vector3d& axis, const Corners& a, const Corners& b) {
   const double length = axis.norm();
-  if (!(length > 0.0)) return -std::numeric_limits<double>::infinity();
+  if (!(length > 0.0)) return -kInfinity;
   const Vector3d n = axis / length;
   return std::min({n.dot(b[0]), n.dot(b[1]), n.dot(b[2])}) - std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
 }
 
 std::optional<Vector3d> piercedPoint(const Corners& t, const Vector3d& p, const Vector3d& q, double error) {
-  const Vector3d cross = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Vector3d cross = areaNormal(t);
   const double area2 = cross.norm();
   if (!(area2 > 0.0)) return std::nullopt;
   const Vector3d normal = cross / area2;

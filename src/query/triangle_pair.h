@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "geometry/triangle_cut.h"
+#include "geometry/corners.h"
 
 /// Queries about two triangles. Degenerate triangles (a segment, a point) are allowed.
 namespace sdf_ccd {

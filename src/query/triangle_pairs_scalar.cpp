@@ -36,13 +36,9 @@ struct Pair {
   Corners a, start, end, middle;
 };
 
-Vector3d normalOf(const Corners& t) {
-  return (t[1] - t[0]).cross(t[2] - t[0]);
-}
-
 /// In the triangle's plane, away from it across an edge.
 Vector3d outward(const Corners& t, int edge) {
-  return (t[(edge + 1) % 3] - t[edge]).cross(normalOf(t));
+  return (t[(edge + 1) % 3] - t[edge]).cross(areaNormal(t));
 }
 
 }  // namespace
@@ -52,7 +48,7 @@ void planeGapsOneByOne(const EndPoses& poses, const Vector3d& direction_A, Trian
     const Pair pair(poses, pairs, i);
     pairs.gap[i] = -1e300;
     pair.offer(direction_A, i, pairs);
-    for (const Vector3d& normal : {normalOf(pair.a), normalOf(pair.middle)}) {
+    for (const Vector3d& normal : {areaNormal(pair.a), areaNormal(pair.middle)}) {
       pair.offer(normal, i, pairs);
       pair.offer(-normal, i, pairs);
     }

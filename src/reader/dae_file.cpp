@@ -10,6 +10,7 @@
 #include <tinyxml2.h>
 
 #include "collada_mesh.h"
+#include "common/pi.h"
 #include "xml_numbers.h"
 
 namespace sdf_ccd {
@@ -67,7 +68,7 @@ Eigen::Affine3d transformOf(const XMLElement& element) {
   } else if (name == "rotate") {
     const std::vector<double> n = exactly(4, element);
     const Vector3d axis(n[0], n[1], n[2]);
-    if (axis.norm() > 0.0) X.linear() = Eigen::AngleAxisd(n[3] * M_PI / 180.0, axis.normalized()).toRotationMatrix();
+    if (axis.norm() > 0.0) X.linear() = Eigen::AngleAxisd(n[3] * kPi / 180.0, axis.normalized()).toRotationMatrix();
   } else if (name == "lookat") {
     X = lookAt(element);
   } else if (name == "skew") {

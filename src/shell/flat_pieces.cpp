@@ -67,11 +67,8 @@ std::vector<int> growPieces(const TriangleMesh& mesh, const std::vector<Vector3d
 std::vector<Vector3d> triangleNormals(const TriangleMesh& mesh) {
   std::vector<Vector3d> normals;
   normals.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d normal = areaNormal(mesh, static_cast<int>(i));
-    const double norm = normal.norm();
-    normals.push_back(norm > 0 ? Vector3d(normal / norm) : Vector3d::Zero());
-  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    normals.push_back(areaNormal(mesh, static_cast<int>(i)).normalized());
   return normals;
 }
 

@@ -75,7 +75,7 @@ double coveringRadius2(const TriangleMesh& mesh, const NearestPoint& nearest, do
   // First one location per triangle: the better the lower bound of the radius, the fewer pieces must be cut.
   forEachTriangle(mesh, nearest, scale, [&](std::size_t chunk, int i, PieceWalk&) {
     if (at_most2[static_cast<std::size_t>(i)] <= reached2[chunk]) return;
-    reached2[chunk] = std::max(reached2[chunk], nearest.find(SurfacePiece::of(mesh, i).centroid(), any).distance2);
+    reached2[chunk] = std::max(reached2[chunk], nearest.find(centroid(cornersOf(mesh, i)), any).distance2);
   });
   // Shared by all tasks, in any order: a task skips only pieces that are covered by a radius already found.
   std::atomic<double> bound2{*std::max_element(reached2.begin(), reached2.end())};

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,7 +40,7 @@ NearestPoint::NearestPoint(const PointShell& shell) {
 }
 
 NearestPoint::Hit NearestPoint::find(const Vector3d& p, const Vector3d& facing) const {
-  Hit best{-1, std::numeric_limits<double>::infinity(), Vector3d::Zero()};
+  Hit best{-1, kInfinity, Vector3d::Zero()};
   if (nodes_.empty()) return best;
   struct Pending {
     double bound2;

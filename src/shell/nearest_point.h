@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "geometry/box_measures.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
@@ -39,10 +39,6 @@ class NearestPoint {
     Vector3d point, normal;
     std::int32_t index;
   };
-
-  static double squaredDistance(const AlignedBox3d& box, const Vector3d& p) {
-    return (box.min() - p).cwiseMax(p - box.max()).cwiseMax(0).squaredNorm();
-  }
 
   template <typename Visit>
   void visitWithin(std::int32_t index, const Vector3d& p, double radius2, const Vector3d& facing, Visit& visit) const {

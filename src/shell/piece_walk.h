@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "common/infinity.h"
 #include "nearest_point.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_piece.h"
@@ -84,7 +84,7 @@ class PieceWalk {
   /// Gathers all points that may be nearest to a location of the piece. Let q be the point nearest to the centre: a
   /// location's nearest point is at most as far from it as q, which is at most as far as q is from its farthest corner.
   void gather(const SurfacePiece& piece, const Vector3d& facing) {
-    const Vector3d center = piece.centroid();
+    const Vector3d center = centroid(piece.corners);
     const NearestPoint::Hit hit = nearest_.find(center, facing);
     if (hit.index < 0) return;
     const double reach = std::sqrt(piece.farthest2(hit.point)) + std::sqrt(piece.farthest2(center));
@@ -109,7 +109,7 @@ class PieceWalk {
     to_corners2_.resize(count);
     std::array<std::size_t, 4> rivals{};
     std::array<double, 4> least;
-    least.fill(std::numeric_limits<double>::infinity());
+    least.fill(kInfinity);
     for (std::size_t i = 0; i < count; ++i) {
       Vector3d& to2 = to_corners2_[i];
       for (int k = 0; k < 3; ++k) to2[k] = (piece.corners[k] - gathered_[i].point).squaredNorm();

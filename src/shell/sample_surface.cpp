@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "common/infinity.h"
 #include "edge_sampling.h"
 #include "geometry/solid_boundary.h"
 #include "measure_shell.h"
@@ -72,6 +72,15 @@ double surfacePoints(const TriangleMesh& mesh, double spacing) {
   return std::max(on_faces, sliverPoints(mesh, spacing, on_faces));
 }
 
+/// @throws std::invalid_argument if the mesh or the options are not valid.
+TriangleMesh weldedSurface(const TriangleMesh& mesh, const ShellOptions& options) {
+  validate(mesh);
+  validate(options);
+  TriangleMesh surface = welded(mesh);
+  if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
+  return surface;
+}
+
 /// The surface and edges to be sampled, for requireRoom().
 struct Extent {
   double area = 0.0;            ///< [m²]
@@ -97,11 +106,7 @@ void requireRoom(const Extent& extent, const ShellOptions& options) {
 }  // namespace
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options) {
-  validate(mesh);
-  validate(options);
-  const TriangleMesh surface = welded(mesh);
-  if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
-  return sampleSurface(Solid(surface), options);
+  return sampleSurface(Solid(weldedSurface(mesh, options)), options);
 }
 
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
@@ -116,10 +121,7 @@ PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
 }
 
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested, const EdgeSampling& sampling) {
-  validate(mesh);
-  validate(requested);
-  const TriangleMesh surface = welded(mesh);
-  if (surface.triangles.empty()) throw std::invalid_argument("no triangle of the mesh has three different corners");
+  const TriangleMesh surface = weldedSurface(mesh, requested);
   const double area = surfaceArea(surface);
   ShellOptions options = requested;
   std::vector<SurfaceEdge> edges;
@@ -161,7 +163,7 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   filler.fillEdges(edges, sampling.radius);
   PointShell shell = filler.take();
   shell.areas.assign(shell.size(), 0.0F);
-  shell.covering_radius = std::numeric_limits<double>::infinity();
+  shell.covering_radius = kInfinity;
   shell.edge_radius = sampling.radius;
   shell.flatness = sampling.flatness;
   return shell;

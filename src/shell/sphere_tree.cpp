@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::int32_t kPointsPerLeaf = 8;
 
-struct Ball {
-  Vector3d center;
-  double radius;
-};
-
 class Builder {
  public:
   explicit Builder(const std::vector<Vector3d>& points) : points_(points), order_(points.size()) {
@@ -46,7 +41,7 @@ class Builder {
   const Vector3d& point(std::int32_t i) const { return points_[order_[i]]; }
 
   SphereTree::Node node(std::int32_t begin, std::int32_t end) const {
-    const Ball ball = boundingBall(begin, end);
+    const BoundingBall ball = boundingBall(begin, end);
     return {ball.center, ball.radius, begin, end, -1, 0};
   }
 
@@ -77,14 +72,14 @@ class Builder {
 
   /// Starts from the smallest of three balls: about the box's centre, about the centroid, and that of Ritter 1990. Then
   /// moves the centre towards the farthest point in ever shorter steps (Bădoiu & Clarkson 2003); keeps the smallest.
-  Ball boundingBall(std::int32_t begin, std::int32_t end) const {
+  BoundingBall boundingBall(std::int32_t begin, std::int32_t end) const {
     AlignedBox3d box;
     Vector3d sum = Vector3d::Zero();
     for (std::int32_t i = begin; i < end; ++i) {
       box.extend(point(i));
       sum += point(i) - point(begin);
     }
-    Ball best{box.center(), farthest(box.center(), begin, end).second};
+    BoundingBall best{box.center(), farthest(box.center(), begin, end).second};
     for (const Vector3d& center : {Vector3d(point(begin) + sum / (end - begin)), ritterCenter(begin, end)}) {
       const double radius = farthest(center, begin, end).second;
       if (radius < best.radius) best = {center, radius};
@@ -103,7 +98,7 @@ class Builder {
   Vector3d ritterCenter(std::int32_t begin, std::int32_t end) const {
     const Vector3d a = point(farthest(point(begin), begin, end).first);
     const Vector3d b = point(farthest(a, begin, end).first);
-    Ball ball{(a + b) / 2, (a - b).norm() / 2};
+    BoundingBall ball{(a + b) / 2, (a - b).norm() / 2};
     for (std::int32_t i = begin; i < end; ++i) {
       const double distance = (point(i) - ball.center).norm();
       if (distance <= ball.radius) continue;

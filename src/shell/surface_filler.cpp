@@ -184,7 +184,7 @@ void SurfaceFiller::fillGaps(const SurfacePiece& whole, const Vector3d& normal) 
     const SurfacePiece piece = pieces_.back();
     pieces_.pop_back();
     const double length2 = piece.longestEdge().second;
-    const Vector3d center = piece.centroid();
+    const Vector3d center = centroid(piece.corners);
     if (length2 <= 4 * spacing2) {
       const bool done = grid_.anyNear(center, [&](std::int32_t q) {
         return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].cast<double>().dot(normal) >= 0;

@@ -1,27 +1,21 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "geometry/corners.h"
 
 namespace sdf_ccd {
 
 /// A triangular piece of a surface that is halved until a decision about it is possible.
 struct SurfacePiece {
-  std::array<Vector3d, 3> corners;
+  Corners corners;
 
-  static SurfacePiece of(const TriangleMesh& mesh, int triangle) {
-    const Vector3i& t = mesh.triangles[triangle];
-    return {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}};
-  }
+  static SurfacePiece of(const TriangleMesh& mesh, int triangle) { return {cornersOf(mesh, triangle)}; }
 
-  Vector3d centroid() const { return (corners[0] + corners[1] + corners[2]) / 3; }
-
-  double area() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2; }
+  double area() const { return areaNormal(corners).norm() / 2; }
 
   /// Index of the corner opposite the longest edge, and that edge's squared length.
   std::pair<int, double> longestEdge() const {

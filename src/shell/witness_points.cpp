@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "../geometry/mesh_edges.h"
+#include "common/infinity.h"
 
 namespace sdf_ccd {
 
@@ -10,7 +11,7 @@ PointShell witnessPoints(const TriangleMesh& mesh) {
   validate(mesh);
   const std::vector<std::int32_t> component = componentOfVertices(mesh);
   PointShell witnesses;
-  witnesses.covering_radius = std::numeric_limits<double>::infinity();
+  witnesses.covering_radius = kInfinity;
   std::vector<char> seen(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     char& component_seen = seen[component[mesh.triangles[i][0]]];

@@ -31,10 +31,10 @@ TEST(TriangleLanes, WaysAreThoseFromTheClosestPoint) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
     const Case made = randomCase(random);
-    const MeasuredTriangle triangle(made.a, made.b, made.c);
+    const MeasuredTriangle triangle({made.a, made.b, made.c});
     if (triangle.sliver()) continue;
     DisplacementLanes found;
-    ways({made.a, made.b, made.c}, made.places, found);
+    displacements(FlatTriangle({made.a, made.b, made.c}), made.places, found);
     for (int k = 0; k < PointLanes::kCount; ++k) {
       const Vector3d way = made.places.at(k) - triangle.closest(made.places.at(k));
       ASSERT_NEAR((found.at(k) - way).norm(), 0.0, 1e-11);
@@ -53,9 +53,9 @@ TEST(TriangleLanes, NearestOfSeveralIsKept) {
     PointLanes::Lane best2 = closest.distance2, side{};
     for (int n = 0; n < 5; ++n) {
       const Case made = randomCase(random);
-      const MeasuredTriangle triangle(made.a, made.b, made.c);
+      const MeasuredTriangle triangle({made.a, made.b, made.c});
       if (triangle.sliver()) continue;
-      offer({made.a, made.b, made.c}, axis, places, closest);
+      offer(FlatTriangle({made.a, made.b, made.c}), axis, places, closest);
       for (int k = 0; k < PointLanes::kCount; ++k) {
         const Vector3d way = places.at(k) - triangle.closest(places.at(k));
         if (way.squaredNorm() >= best2[k]) continue;

@@ -37,7 +37,7 @@ TriangleMesh randomSoup(int count, std::uint64_t seed) {
 double bruteDistance(const TriangleMesh& mesh, const Vector3d& p) {
   double best = kInfinity;
   for (const Vector3i& t : mesh.triangles) {
-    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
+    const Vector3d q = closestOnTriangle(cornersOf(mesh.vertices, t), p);
     best = std::min(best, (q - p).norm());
   }
   return best;
@@ -53,8 +53,7 @@ TEST(TriangleTree, ClosestPointEqualsBruteForce) {
     EXPECT_DOUBLE_EQ(found.distance, bruteDistance(mesh, p));
     EXPECT_DOUBLE_EQ((found.point - p).norm(), found.distance);
     ASSERT_GE(found.triangle, 0);
-    const Vector3i& t = mesh.triangles[found.triangle];
-    EXPECT_EQ(found.point, closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p));
+    EXPECT_EQ(found.point, closestOnTriangle(cornersOf(mesh, found.triangle), p));
   }
 }
 
@@ -251,7 +250,7 @@ TEST(Triangle, ClosestPointAgreesWithDenseSampling) {
                        : i % 3 == 1 ? Vector3d(a + 0.4 * (b - a) + std::pow(10.0, -i / 20) * randomPoint(random, 1))
                                     : Vector3d(a + 0.4 * (b - a));
     const Vector3d p = randomPoint(random, 2);
-    const double found = (closestOnTriangle(a, b, c, p) - p).norm();
+    const double found = (closestOnTriangle({a, b, c}, p) - p).norm();
     double sampled = kInfinity;
     constexpr int n = 60;
     for (int j = 0; j <= n; ++j) {
@@ -266,12 +265,12 @@ TEST(Triangle, ClosestPointAgreesWithDenseSampling) {
 
 TEST(Triangle, DegenerateTrianglesHaveNoSolidAngleAndNoNan) {
   const Vector3d a(0, 0, 0), b(1, 0, 0);
-  EXPECT_EQ(closestOnTriangle(a, a, a, b), a);
-  EXPECT_TRUE(closestOnTriangle(a, b, a, Vector3d(0.5, 1, 0)).isApprox(Vector3d(0.5, 0, 0)));
+  EXPECT_EQ(closestOnTriangle({a, a, a}, b), a);
+  EXPECT_TRUE(closestOnTriangle({a, b, a}, Vector3d(0.5, 1, 0)).isApprox(Vector3d(0.5, 0, 0)));
   SolidAngleSum at_corner(a), beside(Vector3d(0.5, 1, 0));
-  at_corner.add(a, a, a);
+  at_corner.add({a, a, a});
   EXPECT_EQ(at_corner.value(), 0);
-  beside.add(a, b, a);
+  beside.add({a, b, a});
   EXPECT_EQ(beside.value(), 0);
 }
 
@@ -285,7 +284,7 @@ TEST(SolidAngleSum, EqualsTheSumOfArcTangents) {
       const double sign = round % 2 == 0 ? 1.0 : -1.0, height = std::pow(10.0, -(round % 9));
       SolidAngleSum sum(p);
       for (int i = 0; i < 40; ++i) {
-        std::array<Vector3d, 3> corners;
+        Corners corners;
         for (int k = 0; k < 3; ++k) {
           const double angle = sign * (2.0 * k + test::uniform(random, 0, 1)) * M_PI / 3.0;
           corners[k] = p + size * Vector3d(std::cos(angle), std::sin(angle), -height * test::uniform(random, 0.1, 1));
@@ -293,7 +292,7 @@ TEST(SolidAngleSum, EqualsTheSumOfArcTangents) {
         if (i % 8 == 7) std::swap(corners[0], corners[1]);
         for (const Vector3d& corner : corners) mesh.vertices.push_back(corner);
         mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-        sum.add(corners[0], corners[1], corners[2]);
+        sum.add(corners);
         ASSERT_NEAR(sum.value(), test::windingNumber(mesh, p), 1e-13 * (i + 1) / height) << size << " " << height;
       }
       EXPECT_GT(std::abs(sum.value()), 2.0);

@@ -247,8 +247,7 @@ TEST(SurfacePair, NothingTunnels) {
 /// A body wholly inside touches no surface, and yet is in contact (design §3.15), also without a previous cycle; in a
 /// cavity it is not.
 TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
-  TriangleMesh cavity = boxMesh({0.1, 0.1, 0.1});
-  for (Vector3i& t : cavity.triangles) std::swap(t[1], t[2]);
+  const TriangleMesh cavity = flipped(boxMesh({0.1, 0.1, 0.1}));
   const auto solid = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))},
                            coarse()),
              hollow = build({body("block", meshShape(merged(boxMesh({0.2, 0.2, 0.2}), cavity))),

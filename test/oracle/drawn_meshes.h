@@ -57,9 +57,7 @@ struct Cupboard {
   Cupboard() {
     shelf = boxMesh({0.5, 0.54, 0.0305});
     walls = openBox({-0.56, -0.62, -1.03}, {0.56, 0.58, 1.03});
-    TriangleMesh inner = openBox({-0.52, -0.58, -0.99}, {0.52, 0.58, 0.99});
-    for (Vector3i& t : inner.triangles) std::swap(t[1], t[2]);
-    walls = merged(walls, inner);
+    walls = merged(walls, flipped(openBox({-0.52, -0.58, -0.99}, {0.52, 0.58, 0.99})));
     for (const double side : {-1.0, 1.0}) {
       const double x0 = side < 0 ? -0.56 : 0.52, x1 = x0 + 0.04, y = 0.58;
       addQuad(walls, {Vector3d(x0, y, -1.03), {x0, y, 1.03}, {x1, y, 1.03}, {x1, y, -1.03}});
@@ -132,9 +130,7 @@ struct CrossedTetrahedra {
     large = tetrahedron(3, 0);
     small = tetrahedron(2, 1);
     for (TriangleMesh* part : {&large, &small, &mesh}) {
-      if (signedVolume(*part) < 0.0) {
-        for (Vector3i& t : part->triangles) std::swap(t[1], t[2]);
-      }
+      if (signedVolume(*part) < 0.0) *part = flipped(*part);
     }
   }
 };

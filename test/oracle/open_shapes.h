@@ -28,7 +28,7 @@ inline TriangleMesh binMesh(double half) {
 inline double distance(const TriangleMesh& mesh, const Vector3d& p) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3i& t : mesh.triangles) {
-    const Vector3d q = closestOnTriangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], p);
+    const Vector3d q = closestOnTriangle(cornersOf(mesh.vertices, t), p);
     least = std::min(least, (q - p).norm());
   }
   return least;

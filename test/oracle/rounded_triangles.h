@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
-#include "geometry/triangle_cut.h"
+#include "geometry/corners.h"
 #include "oracle/triangle_distance.h"
 
 /// Surfaces of rounded triangles, and their distances by brute force.

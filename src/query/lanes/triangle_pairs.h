@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "geometry/triangle_cut.h"
+#include "geometry/corners.h"
 
 namespace sdf_ccd {
 

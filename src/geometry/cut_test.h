@@ -1,16 +1,8 @@
 #pragma once
 
-#include <array>
-
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "geometry/corners.h"
 
 namespace sdf_ccd {
-
-using Corners = std::array<Vector3d, 3>;
-
-Corners cornersOf(const TriangleMesh& mesh, int triangle);
-
-double longestEdge(const Corners& c);
 
 /// A triangle of a mesh, with its normal of length one (or zero).
 struct FacedTriangle {

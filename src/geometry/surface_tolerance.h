@@ -1,9 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "geometry/triangle_tree.h"
+#include "geometry/corners.h"
 
 namespace sdf_ccd {
 
@@ -19,21 +16,9 @@ SurfaceTolerance surfaceTolerance(const TriangleMesh& mesh);
 
 /// Upper bound of the error of the closest point that closestOnTriangle() finds [m]: negligible for most triangles, but
 /// up to 4e-8 of the length of a thin one.
-double closestError(const Vector3d& a, const Vector3d& b, const Vector3d& c);
+double closestError(const Corners& c);
 
 /// Whether a triangle's plane is certain: its height exceeds a share of its longest edge, and a length.
 bool hasCertainPlane(const TriangleMesh& mesh, int triangle, const SurfaceTolerance& tolerance);
-
-/// Per triangle, those that cut it, overlap it or touch it elsewhere than at shared vertices and edges, within the
-/// tolerance of a layer; conservative. Only triangles with a certain plane have lists.
-struct TriangleCuts {
-  std::vector<std::vector<int>> of;  ///< ascending
-  std::size_t pairs = 0;             ///< entries of all lists
-  bool complete = true;              ///< false: there are more than `max_pairs`; lists hold only their first entries
-};
-
-/// @param tree  over the same mesh.
-TriangleCuts triangleCuts(const TriangleMesh& mesh, const TriangleTree& tree, const SurfaceTolerance& tolerance,
-                          std::size_t max_pairs);
 
 }  // namespace sdf_ccd

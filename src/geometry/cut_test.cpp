@@ -1,14 +1,15 @@
-#include "triangle_cut.h"
+#include "cut_test.h"
 
 #include <algorithm>
 
+#include "geometry/box_measures.h"
 #include "geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {
 
 double distanceToTriangle(const Corners& t, const Vector3d& p) {
-  return (closestOnTriangle(t[0], t[1], t[2], p) - p).norm();
+  return (closestOnTriangle(t, p) - p).norm();
 }
 
 /// Squared distance of two segments (Ericson 2005, §5.1.9, by the four ends and the crossing of the lines).
@@ -79,19 +80,9 @@ int commonCorner(const Vector3i& of, const Vector3i& with) {
 
 }  // namespace
 
-Corners cornersOf(const TriangleMesh& mesh, int triangle) {
-  const Vector3i& t = mesh.triangles[triangle];
-  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
-
-double longestEdge(const Corners& c) {
-  return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
-}
-
 double cutTolerance(const TriangleMesh& mesh) {
   const AlignedBox3d box = boundingBox(mesh);
-  const double reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff();
-  return 1e-12 * std::max(box.sizes().maxCoeff(), 1e-6 * reach);
+  return 1e-12 * std::max(box.sizes().maxCoeff(), 1e-6 * largestCoordinate(box));
 }
 
 int sharedVertices(const Vector3i& a, const Vector3i& b) {
