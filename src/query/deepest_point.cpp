@@ -1,64 +1,18 @@
 #include "deepest_point.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 #include "common/infinity.h"
+#include "hull_depth.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
-namespace {
-
-constexpr double kNear = 2.5;  // radius of the triangles considered around a piece, relative to the piece's size
-
-/// The depth of one point [m], in the element's frame.
-struct PartDepth {
-  double depth = -kInfinity;
-  int triangle = -1;                // the nearest one; -1 for a primitive
-  Vector3d out = Vector3d::Zero();  // outward normal: unit, or zero where there is none
-};
-
-Vector3d normalOf(const MeasuredTriangle& t) {
-  return areaNormal(t.corners()).normalized();
-}
-
-PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
-  if (!part.solid) {
-    const FieldValue value = part.field->interpolate(p_G);
-    return {-value.value, -1, value.gradient.normalized()};
-  }
-  const TriangleTree& tree = part.solid->tree();
-  const TriangleTree::ClosestPoint nearest = tree.closestPoint(p_G);
-  const DistanceBounds bounds = part.field->bounds(p_G);
-  const bool inside = bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
-  Vector3d out = (inside ? 1.0 : -1.0) * (nearest.point - p_G);
-  // On the surface (up to rounding) the outward direction is the triangle's own normal.
-  if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm()))) out = areaNormal(tree.triangle(nearest.triangle).corners());
-  return {inside ? nearest.distance : -nearest.distance, nearest.triangle, out.normalized()};
-}
-
-/// The largest of a point's depths in all elements, in the body's frame.
-PartDepth depthIn(const std::vector<SolidPart>& solid, const Vector3d& p) {
-  PartDepth deepest;
-  for (const SolidPart& part : solid) {
-    const Vector3d p_G = part.X_GB * p;
-    if (-part.field->lowerBound(p_G) <= deepest.depth) continue;
-    PartDepth depth = depthIn(part, p_G);
-    if (depth.depth <= deepest.depth) continue;
-    depth.out = part.X_GB.linear().transpose() * depth.out;
-    deepest = depth;
-  }
-  return deepest;
-}
-
-}  // namespace
 
 /// The search along one of the added motions.
-class DeepestSearch::Look {
+class DeepestSearch::MotionSearch {
  public:
-  Look(DeepestSearch& search, int index)
+  MotionSearch(DeepestSearch& search, int index)
       : search_(search),
         index_(index),
         entry_(search.added_[index]),
@@ -172,15 +126,6 @@ class DeepestSearch::Look {
     });
   }
 
-  /// One value for each of three corners at the start, then at the end.
-  using Corners6 = std::array<double, 6>;
-
-  /// Upper bound of the depth within the hull of a triangle's corners at both ends.
-  struct PartBound {
-    double bound = -kInfinity;
-    Corners6 deepest = {};  // bounds at the corners themselves; zero if no deeper point than the known one is possible
-  };
-
   /// Tightens a piece's bound and keeps the piece if it may contain a deeper point than the deepest known one.
   void add(Piece piece) {
     if (!search_.isDone(piece.bound)) measure(piece);
@@ -189,118 +134,31 @@ class DeepestSearch::Look {
 
   void measure(Piece& piece) {
     const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
-    std::array<Vector3d, 6> corners;
-    Vector3d center = Vector3d::Zero();
+    Hull hull;
     for (int k = 0; k < 3; ++k) {
-      corners[k] = X_start * piece.corners[k];
-      corners[k + 3] = X_end * piece.corners[k];
-      center += (corners[k] + corners[k + 3]) / 6.0;
+      hull.corners[k] = X_start * piece.corners[k];
+      hull.corners[k + 3] = X_end * piece.corners[k];
+      hull.center += (hull.corners[k] + hull.corners[k + 3]) / 6.0;
     }
-    double size = 0.0;
-    for (const Vector3d& corner : corners) size = std::max(size, (corner - center).norm());
+    for (const Vector3d& corner : hull.corners) hull.size = std::max(hull.size, (corner - hull.center).norm());
     const double length = piece.end - piece.start;
     const double beyond = motion_.acceleration * length * length / 8.0 + piece.radius;
-    double highest = -kInfinity;
-    Corners6 deepest;
-    deepest.fill(-kInfinity);
+    HullDepth highest;
+    highest.at_corners.fill(-kInfinity);
     for (const SolidPart& part : solid_) {
-      const Vector3d c = part.X_GB * center;
-      PartBound bound;
-      bound.bound = size - part.field->lowerBound(c);
-      if (!search_.isDone(bound.bound + beyond)) bound = boundIn(part, c, size, corners);
-      for (int k = 0; k < 6; ++k) deepest[k] = std::max(deepest[k], bound.deepest[k]);
-      highest = std::max(highest, bound.bound);
+      HullDepth found;
+      found.bound = hull.size - part.field->lowerBound(part.X_GB * hull.center);
+      if (!search_.isDone(found.bound + beyond)) found = hullDepth(part, hull, search_.enough(), search_.near_);
+      for (int k = 0; k < 6; ++k) highest.at_corners[k] = std::max(highest.at_corners[k], found.at_corners[k]);
+      highest.bound = std::max(highest.bound, found.bound);
     }
-    piece.bound = std::min(piece.bound, highest + beyond);
+    piece.bound = std::min(piece.bound, highest.bound + beyond);
     if (search_.isDone(piece.bound)) return;
     if (isWholeBall(piece)) return offerRound(piece, X_start);
+    const HullValues& deepest = highest.at_corners;
     const int best = static_cast<int>(std::max_element(deepest.begin(), deepest.end()) - deepest.begin());
     if (!search_.isDone(deepest[best]))
-      offer(piece.corners[best % 3], corners[best], best < 3 ? piece.start : piece.end);
-  }
-
-  /// Upper bound of the depth in a hull of corners, none of which is farther from c than `size`.
-  PartBound boundIn(const SolidPart& part, const Vector3d& c, double size,
-                    const std::array<Vector3d, 6>& corners_F) const {
-    const PartDepth depth = depthIn(part, c);
-    PartBound found;
-    found.bound = depth.depth + size;
-    found.deepest.fill(found.bound);
-    if (!part.solid && depth.out.isZero()) return found;
-    std::array<Vector3d, 6> corners;
-    for (int k = 0; k < 6; ++k) corners[k] = part.X_GB * corners_F[k];
-    std::array<Corners6, 5> sides;  // per bound: its values at the corners, between which it is convex
-    std::size_t count = 0;
-    double smallest = kInfinity;
-    std::size_t best = 0;
-    const auto take = [&](const Corners6& bounds) {
-      const double largest = *std::max_element(bounds.begin(), bounds.end());
-      found.bound = std::min(found.bound, largest);
-      for (int k = 0; k < 6; ++k) found.deepest[k] = std::min(found.deepest[k], bounds[k]);
-      if (largest < smallest) best = count;
-      smallest = std::min(smallest, largest);
-      sides[count++] = bounds;
-    };
-    const auto takeSide = [&](const PartDepth& side, const Vector3d& point) {
-      Corners6 bounds;
-      for (int k = 0; k < 6; ++k) {
-        bounds[k] = part.solid ? part.solid->tree().distanceTo(side.triangle, corners[k])
-                               : side.depth - side.out.dot(corners[k] - point);
-      }
-      take(bounds);
-    };
-    const auto takePlane = [&](const Vector3d& n) {
-      if (const std::optional<Corners6> bounds = behindPlane(part, c, n, size, corners)) take(*bounds);
-    };
-    takeSide(depth, c);
-    if (part.solid && !search_.isDone(found.bound)) {
-      part.solid->tree().trianglesWithin(c, kNear * size, search_.near_);
-      takePlane(normalOf(part.solid->tree().triangle(depth.triangle)));
-      takePlane(depth.out);
-    }
-    if (search_.isDone(found.bound)) return found;
-    // Where that bound is highest, another triangle may be nearer and give a tighter bound.
-    const Vector3d point = corners[std::max_element(sides[best].begin(), sides[best].end()) - sides[best].begin()];
-    if (part.solid) {
-      PartDepth side;
-      side.triangle = part.solid->tree().closestPoint(point).triangle;
-      takeSide(side, point);
-      takePlane(normalOf(part.solid->tree().triangle(side.triangle)));
-    } else if (const PartDepth side = depthIn(part, point); !side.out.isZero()) {
-      takeSide(side, point);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        for (const double weight : {0.25, 0.5, 0.75}) {
-          double largest = -kInfinity;
-          for (int k = 0; k < 6; ++k) largest = std::max(largest, (1.0 - weight) * sides[i][k] + weight * sides[j][k]);
-          found.bound = std::min(found.bound, largest);
-        }
-      }
-    }
-    return found;
-  }
-
-  /// Bounds by a plane with normal n that has all of the nearby solid behind it; none if there is no such plane.
-  ///
-  /// Within a ball about c no triangle extends farther along n than h: the part of the ball beyond h is entirely inside
-  /// or entirely outside the solid, which one query decides. If it is outside, the ray along n from a point x of the
-  /// hull that is inside leaves the solid at the plane or earlier, within h − n·x, as long as that is still in the
-  /// ball. Points beyond the plane are bounded by their distance from the solid, or from points outside the ball.
-  std::optional<Corners6> behindPlane(const SolidPart& part, const Vector3d& c, const Vector3d& n, double size,
-                                      const std::array<Vector3d, 6>& corners) const {
-    const double radius = kNear * size;
-    const TriangleTree& tree = part.solid->tree();
-    double h = -radius;
-    for (const int i : search_.near_) {
-      for (const Vector3d& p : tree.triangle(i).corners()) h = std::max(h, n.dot(p - c));
-    }
-    if (!(h < radius) || n.isZero()) return std::nullopt;
-    Corners6 behind;
-    for (int k = 0; k < 6; ++k) behind[k] = std::max(h - n.dot(corners[k] - c), size - radius);
-    if (size + *std::max_element(behind.begin(), behind.end()) > radius) return std::nullopt;
-    if (part.solid->inside(c + radius * n)) return std::nullopt;
-    return behind;
+      offer(piece.corners[best % 3], hull.corners[best], best < 3 ? piece.start : piece.end);
   }
 
   /// Tests the point of a ball that is deepest in a solid that does not contain its centre, at the piece's start.
@@ -359,7 +217,7 @@ void DeepestSearch::push(const Piece& piece) {
 void DeepestSearch::run(int max_pieces) {
   CancelTicks<64> cancel;
   for (int i = 0; i < static_cast<int>(added_.size()); ++i)
-    Look(*this, i).offerBoxes(added_[i].surface.triangles->root().node);
+    MotionSearch(*this, i).offerBoxes(added_[i].surface.triangles->root().node);
   for (int pieces = 0; !left_.empty();) {
     cancel.check();
     std::pop_heap(left_.begin(), left_.end(), isLess);
@@ -370,12 +228,12 @@ void DeepestSearch::run(int max_pieces) {
       highest_left_ = std::max(highest_left_, piece.bound);
       return;
     }
-    Look look(*this, piece.motion);
+    MotionSearch search(*this, piece.motion);
     if (piece.node >= 0) {
-      look.offerBoxes(piece.node);
+      search.offerBoxes(piece.node);
     } else {
       ++pieces;
-      look.divide(piece);
+      search.divide(piece);
     }
   }
 }

@@ -4,18 +4,10 @@
 #include <vector>
 
 #include "geometry/box_tree.h"
-#include "geometry/solid_boundary.h"
 #include "motion/chords.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "query/part_depth.h"
 
 namespace sdf_ccd {
-
-/// One element of the body in which depths are measured. G is the element's frame, B the body's.
-struct SolidPart {
-  Isometry3d X_GB;
-  const DistanceField* field;  ///< gives bounds, so that fewer exact distances are computed
-  const Solid* solid;          ///< of a closed mesh; null for a primitive, which is convex and whose field is exact
-};
 
 /// The surface that penetrates: its triangles, and the elements of its own body, which may hide some of them.
 struct EnteringSurface {
@@ -71,7 +63,7 @@ class DeepestSearch {
   double error() const { return std::max(0.0, highest_left_ - best_.depth); }
 
  private:
-  class Look;
+  class MotionSearch;
 
   struct AddedMotion {
     const EnteringSurface& surface;
@@ -93,7 +85,8 @@ class DeepestSearch {
   };
 
   static bool isLess(const Piece& a, const Piece& b) { return a.bound < b.bound; }
-  bool isDone(double bound) const { return bound <= best_.depth + resolution_; }
+  double enough() const { return best_.depth + resolution_; }
+  bool isDone(double bound) const { return bound <= enough(); }
   void push(const Piece& piece);
 
   double resolution_ = 0.0;

@@ -29,6 +29,13 @@ inline bool stopsAtEnter(SegmentMode mode) {
   return mode == SegmentMode::kFirst || mode == SegmentMode::kAny;
 }
 
+/// Whether a query that has come to the parameter t has what its mode asks for.
+inline bool isAnswered(SegmentMode mode, const Intervals& intervals, double t) {
+  if (intervals.empty()) return false;
+  // The first interval is complete once t is beyond its end.
+  return stopsAtEnter(mode) || (mode == SegmentMode::kFirstInterval && t > intervals.front().exit + kJoin);
+}
+
 /// Throws std::invalid_argument unless |sigma| ≤ field.band().
 void checkIsovalue(const DistanceField& field, double sigma);
 

@@ -27,10 +27,7 @@ void adaptiveIntervals(const AdaptiveGrid& grid, const Segment& segment, const S
       const EmptyBall ball = emptySphere(grid, block, margin);
       passFree(block.low, block.side, ball, ball_exit, walk, intervals);
     }
-    if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // The first interval is complete once the walk is beyond its end.
-    const bool first_only = options.mode == SegmentMode::kFirstInterval;
-    if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
+    if (isAnswered(options.mode, intervals, walk.t())) break;
   }
 }
 

@@ -61,10 +61,7 @@ void gridIntervals(const SparseGrid& grid, const Segment& segment, const Segment
         walk.advance();
       }
     }
-    if (stopsAtEnter(options.mode) && !intervals.empty()) break;
-    // The first interval is complete once the walk is beyond its end.
-    const bool first_only = options.mode == SegmentMode::kFirstInterval;
-    if (first_only && !intervals.empty() && walk.t() > intervals.front().exit + kJoin) break;
+    if (isAnswered(options.mode, intervals, walk.t())) break;
   }
 }
 

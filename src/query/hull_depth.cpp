@@ -1,0 +1,123 @@
+#include "hull_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kNear = 2.5;  // radius of the triangles considered around a hull, relative to the hull's size
+
+class HullSearch {
+ public:
+  HullSearch(const SolidPart& part, const Hull& hull, double enough, std::vector<int>& near)
+      : part_(part), center_(part.X_GB * hull.center), size_(hull.size), enough_(enough), near_(near) {
+    for (int k = 0; k < 6; ++k) corners_[k] = part.X_GB * hull.corners[k];
+  }
+
+  HullDepth run() {
+    const PartDepth depth = depthIn(part_, center_);
+    found_.bound = depth.depth + size_;
+    found_.at_corners.fill(found_.bound);
+    if (!part_.solid && depth.out.isZero()) return found_;
+    takeSide(depth, center_);
+    if (part_.solid && !isDone()) {
+      part_.solid->tree().trianglesWithin(center_, kNear * size_, near_);
+      takePlane(normalOf(depth.triangle));
+      takePlane(depth.out);
+    }
+    if (isDone()) return found_;
+    // Where that bound is highest, another triangle may be nearer and give a tighter bound.
+    const HullValues& best = sides_[best_];
+    const Vector3d point = corners_[std::max_element(best.begin(), best.end()) - best.begin()];
+    if (part_.solid) {
+      PartDepth side;
+      side.triangle = part_.solid->tree().closestPoint(point).triangle;
+      takeSide(side, point);
+      takePlane(normalOf(side.triangle));
+    } else if (const PartDepth side = depthIn(part_, point); !side.out.isZero()) {
+      takeSide(side, point);
+    }
+    takeMeans();
+    return found_;
+  }
+
+ private:
+  bool isDone() const { return found_.bound <= enough_; }
+
+  Vector3d normalOf(int triangle) const {
+    return areaNormal(part_.solid->tree().triangle(triangle).corners()).normalized();
+  }
+
+  void take(const HullValues& bounds) {
+    const double largest = *std::max_element(bounds.begin(), bounds.end());
+    found_.bound = std::min(found_.bound, largest);
+    for (int k = 0; k < 6; ++k) found_.at_corners[k] = std::min(found_.at_corners[k], bounds[k]);
+    if (largest < smallest_) best_ = count_;
+    smallest_ = std::min(smallest_, largest);
+    sides_[count_++] = bounds;
+  }
+
+  /// By the triangle nearest to a point, or by the plane in front of it.
+  void takeSide(const PartDepth& side, const Vector3d& point) {
+    HullValues bounds;
+    for (int k = 0; k < 6; ++k) {
+      bounds[k] = part_.solid ? part_.solid->tree().distanceTo(side.triangle, corners_[k])
+                              : side.depth - side.out.dot(corners_[k] - point);
+    }
+    take(bounds);
+  }
+
+  /// By a plane with normal n that has all of the nearby solid behind it, if it is one.
+  ///
+  /// Within a ball about the center c no triangle extends farther along n than h: the part of the ball beyond h is
+  /// entirely inside or entirely outside the solid, which one query decides. If it is outside, the ray along n from a
+  /// point x of the hull that is inside leaves the solid at the plane or earlier, within h − n·x, as long as that is
+  /// still in the ball. Points beyond the plane are bounded by their distance from the solid, or from points outside
+  /// the ball.
+  void takePlane(const Vector3d& n) {
+    const double radius = kNear * size_;
+    double h = -radius;
+    for (const int i : near_) {
+      for (const Vector3d& p : part_.solid->tree().triangle(i).corners()) h = std::max(h, n.dot(p - center_));
+    }
+    if (!(h < radius) || n.isZero()) return;
+    HullValues behind;
+    for (int k = 0; k < 6; ++k) behind[k] = std::max(h - n.dot(corners_[k] - center_), size_ - radius);
+    if (size_ + *std::max_element(behind.begin(), behind.end()) > radius) return;
+    if (!part_.solid->inside(center_ + radius * n)) take(behind);
+  }
+
+  void takeMeans() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        for (const double weight : {0.25, 0.5, 0.75}) {
+          double largest = -kInfinity;
+          for (int k = 0; k < 6; ++k)
+            largest = std::max(largest, (1.0 - weight) * sides_[i][k] + weight * sides_[j][k]);
+          found_.bound = std::min(found_.bound, largest);
+        }
+      }
+    }
+  }
+
+  const SolidPart& part_;
+  const Vector3d center_;
+  std::array<Vector3d, 6> corners_;
+  const double size_, enough_;
+  std::vector<int>& near_;
+
+  HullDepth found_;
+  std::array<HullValues, 5> sides_;  // per bound: its values at the corners, between which it is convex
+  std::size_t count_ = 0, best_ = 0;
+  double smallest_ = kInfinity;
+};
+
+}  // namespace
+
+HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough, std::vector<int>& near) {
+  return HullSearch(part, hull, enough, near).run();
+}
+
+}  // namespace sdf_ccd
