@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common/infinity.h"
 #include "common/number_text.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/opening_caps.h"
@@ -24,8 +25,11 @@ FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, 
   return {0.5 * (low + high), 0.5 * (high - low), (p_F - nearest).normalized()};
 }
 
-void requireDistance(double moved) {
-  if (moved >= 0.0 && std::isfinite(moved)) return;
+/// The grid. @throws std::invalid_argument if there is none, or `moved` is not a distance.
+template <typename Grid>
+const std::shared_ptr<const Grid>& valid(const std::shared_ptr<const Grid>& grid, double moved) {
+  if (!grid) throw std::invalid_argument("distance field: no grid");
+  if (moved >= 0.0 && std::isfinite(moved)) return grid;
   throw std::invalid_argument("distance field: the surface cannot have moved by " + numberText(moved) + " m");
 }
 
@@ -38,21 +42,17 @@ DistanceField::DistanceField(const Primitive& primitive)
 
 DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
                              double moved)
-    : openings_(std::move(openings)), moved_(moved) {
-  if (!grid) throw std::invalid_argument("distance field: no grid");
-  requireDistance(moved);
-  surface_box_ = grid->shape().surface_box;
-  representation_ = std::move(grid);
-}
+    : representation_(valid(grid, moved)),
+      surface_box_(grid->shape().surface_box),
+      openings_(std::move(openings)),
+      moved_(moved) {}
 
 DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings,
                              double moved)
-    : openings_(std::move(openings)), moved_(moved) {
-  if (!grid) throw std::invalid_argument("distance field: no grid");
-  requireDistance(moved);
-  surface_box_ = grid->shape().surface_box;
-  representation_ = std::move(grid);
-}
+    : representation_(valid(grid, moved)),
+      surface_box_(grid->shape().surface_box),
+      openings_(std::move(openings)),
+      moved_(moved) {}
 
 const Primitive* DistanceField::primitive() const {
   return std::get_if<Primitive>(&representation_);
@@ -99,7 +99,7 @@ FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
 }
 
 double DistanceField::openingDistance(const Vector3d& p_F) const {
-  return openings_ ? openings_->distance(p_F) : std::numeric_limits<double>::infinity();
+  return openings_ ? openings_->distance(p_F) : kInfinity;
 }
 
 FieldValue DistanceField::interpolate(const Vector3d& p_F) const {
@@ -117,7 +117,7 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
     return {distance, distance};
   }
   const double to_surface_box = surface_box_.exteriorDistance(p_F);
-  if (!box().contains(p_F)) return {to_surface_box - moved_, std::numeric_limits<double>::infinity()};
+  if (!box().contains(p_F)) return {to_surface_box - moved_, kInfinity};
   DistanceBounds bounds = adaptive() ? boundsWithin(*adaptive(), p_F) : boundsWithin(*grid(), p_F);
   // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
   if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
@@ -125,7 +125,7 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
 }
 
 double DistanceField::band() const {
-  if (primitive()) return std::numeric_limits<double>::infinity();
+  if (primitive()) return kInfinity;
   return adaptive() ? adaptive()->shape().band : grid()->shape().band;
 }
 

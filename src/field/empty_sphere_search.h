@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "common/lattice.h"
 #include "field/empty_sphere.h"
 
 namespace sdf_ccd {
@@ -20,9 +21,7 @@ class EmptySphereSearch {
   EmptySphere ball(const Vector3i& cell) const;
 
  private:
-  float distance(const Vector3i& point) const {
-    return distances_[(std::size_t(point.z()) * points_.y() + point.y()) * points_.x() + point.x()];
-  }
+  float distance(const Vector3i& point) const { return distances_[indexIn(points_, point)]; }
   /// Of the lattice points that belong to a cell (its centre, or its corners) the one farthest from the surface.
   Vector3i farthest(const Vector3i& cell) const;
   /// The unit direction in which |φ| grows at a lattice point.

@@ -139,7 +139,7 @@ GradientBound::GradientBound(const NearTriangles& near) {
   for (const double by : least) max_growth_ = std::max(max_growth_, std::abs(by));
 }
 
-SDF_CCD_LANES Deviation GradientBound::deviation(double side, const Corners& exact, const Corners& values,
+SDF_CCD_LANES Deviation GradientBound::deviation(double side, const CornerValues& exact, const CornerValues& values,
                                                  const Deviation& enough) const {
   // In units of the cube's side and relative to one of the corners, so that single precision rounds little.
   const double per_side = 1.0 / side;

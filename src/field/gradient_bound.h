@@ -31,7 +31,7 @@ struct Deviation {
 /// if the normals are not in one cone, only |g| ≤ 1 is known.
 class GradientBound {
  public:
-  using Corners = std::array<double, 8>;
+  using CornerValues = std::array<double, 8>;
 
   explicit GradientBound(const NearTriangles& near);
 
@@ -40,7 +40,8 @@ class GradientBound {
   /// @param exact   φ at the cube's corners [m].
   /// @param values  the interpolant at the cube's corners [m].
   /// @param enough  bounds below these are not tightened further.
-  Deviation deviation(double side, const Corners& exact, const Corners& values, const Deviation& enough = {}) const;
+  Deviation deviation(double side, const CornerValues& exact, const CornerValues& values,
+                      const Deviation& enough = {}) const;
 
  private:
   using Lanes = std::array<float, 8>;  ///< see gradient_bound.cpp

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/lattice.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
@@ -22,7 +23,7 @@ class LatticeDistance {
   /// @param low, size    the lattice's first point, and the number of points along each axis.
   /// @param first, last  the window: the voxels considered. No point is farther than 140 cells from a voxel along an
   /// axis.
-  /// @param is_in        whether voxel (x, y, z) is occupied.
+  /// @param is_in        whether a voxel is occupied.
   template <class IsIn>
   void compute(int cells_per_voxel, const Vector3i& low, const Vector3i& size, const Vector3i& first,
                const Vector3i& last, const IsIn& is_in);
@@ -30,7 +31,7 @@ class LatticeDistance {
   /// The distance at a point, given by its indices from the lattice's first point; negative in occupied voxels. Exact
   /// up to the distance that the window covers around the point; a larger value only says that the distance is larger.
   double at(const Vector3i& point) const {
-    const std::size_t i = indexOf(point);
+    const std::size_t i = indexIn(size_, point);
     return outside_[i] > 0 ? std::sqrt(double(outside_[i])) : -std::sqrt(double(inside_[i]));
   }
 
@@ -38,11 +39,6 @@ class LatticeDistance {
   using Squared = std::uint16_t;
   static constexpr Squared kNone = 40000;  // more than any distance in a window; adding one more does not overflow
 
-  std::size_t indexOf(const Vector3i& p) const {
-    return (static_cast<std::size_t>(p.z()) * static_cast<std::size_t>(size_.y()) + static_cast<std::size_t>(p.y())) *
-               static_cast<std::size_t>(size_.x()) +
-           static_cast<std::size_t>(p.x());
-  }
   void transform(bool to_occupied, std::vector<Squared>& squares);
   void alongX(const std::uint8_t* voxels, bool to_occupied, Squared* row);
 
@@ -75,12 +71,10 @@ void LatticeDistance::compute(int cells_per_voxel, const Vector3i& low, const Ve
   count_ = last - first + Vector3i::Ones();
   voxels_.clear();
   bool is_any_in = false;
-  for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y)
-      for (int x = first.x(); x <= last.x(); ++x) {
-        voxels_.push_back(is_in(x, y, z));
-        is_any_in |= voxels_.back() != 0;
-      }
+  forEachPoint(first, last + Vector3i::Ones(), [&](const Vector3i& voxel) {
+    voxels_.push_back(is_in(voxel));
+    is_any_in |= voxels_.back() != 0;
+  });
   if (is_any_in) {
     transform(true, outside_);
   } else {

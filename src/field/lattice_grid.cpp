@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "common/infinity.h"
 #include "field/uniform/uniform_shape.h"
 
 namespace sdf_ccd {
@@ -33,7 +33,7 @@ int farthestSample(const GridShape& shape) {
 
 bool BrickSamples::take(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape) {
   std::array<float, GridShape::kSamples> metres;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   std::size_t at = 0;
   for (int z = 0; z < GridShape::kSide; ++z)
     for (int y = 0; y < GridShape::kSide; ++y)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/lattice.h"
 #include "field/lattice_grid.h"
 
 namespace sdf_ccd {
@@ -10,15 +11,18 @@ namespace {
 
 constexpr int kSide = VoxelBlock::kSide;
 
+/// Voxels outside the block are free.
+bool isOccupied(const VoxelBlock& block, const Vector3i& v) {
+  return v.minCoeff() >= 0 && v.maxCoeff() < kSide && block.occupied[VoxelBlock::index(v.x(), v.y(), v.z())];
+}
+
 AlignedBox3d boxOf(const VoxelBlock& block, const VoxelLattice& lattice) {
   AlignedBox3d box;
-  for (int z = 0; z < kSide; ++z)
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) {
-        if (!block.occupied[VoxelBlock::index(x, y, z)]) continue;
-        box.extend(lattice.origin + lattice.size * Vector3d(x, y, z));
-        box.extend(lattice.origin + lattice.size * Vector3d(x + 1, y + 1, z + 1));
-      }
+  forEachPoint(Vector3i::Constant(kSide), [&](const Vector3i& v) {
+    if (!isOccupied(block, v)) return;
+    box.extend(lattice.origin + lattice.size * v.cast<double>());
+    box.extend(lattice.origin + lattice.size * (v + Vector3i::Ones()).cast<double>());
+  });
   return box;
 }
 
@@ -29,34 +33,27 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice) 
   TriangleMesh mesh;
   std::vector<int> vertices(std::size_t{kCorners} * kCorners * kCorners, -1);
   const auto vertex = [&](const Vector3i& corner) {
-    int& known =
-        vertices[(static_cast<std::size_t>(corner.z()) * kCorners + static_cast<std::size_t>(corner.y())) * kCorners +
-                 static_cast<std::size_t>(corner.x())];
+    int& known = vertices[indexIn(Vector3i::Constant(kCorners), corner)];
     if (known < 0) {
       known = static_cast<int>(mesh.vertices.size());
       mesh.vertices.push_back(lattice.origin + lattice.size * corner.cast<double>());
     }
     return known;
   };
-  const auto isIn = [&](const Vector3i& v) {
-    return v.minCoeff() >= 0 && v.maxCoeff() < kSide && block.occupied[VoxelBlock::index(v.x(), v.y(), v.z())];
-  };
-  for (Vector3i v(0, 0, 0); v.z() < kSide; ++v.z())
-    for (v.y() = 0; v.y() < kSide; ++v.y())
-      for (v.x() = 0; v.x() < kSide; ++v.x()) {
-        if (!isIn(v)) continue;
-        for (int axis = 0; axis < 3; ++axis)
-          for (const bool upper : {false, true}) {
-            const Vector3i unit = Vector3i::Unit(axis);
-            if (isIn(upper ? Vector3i(v + unit) : Vector3i(v - unit))) continue;
-            const Vector3i u = Vector3i::Unit((axis + 1) % 3), w = Vector3i::Unit((axis + 2) % 3);
-            const Vector3i low = upper ? Vector3i(v + unit) : v;
-            const int a = vertex(low), b = vertex(low + u), c = vertex(low + u + w), d = vertex(low + w);
-            // a b c d is counter-clockwise about +axis.
-            mesh.triangles.push_back(upper ? Vector3i(a, b, c) : Vector3i(a, c, b));
-            mesh.triangles.push_back(upper ? Vector3i(a, c, d) : Vector3i(a, d, c));
-          }
+  forEachPoint(Vector3i::Constant(kSide), [&](const Vector3i& v) {
+    if (!isOccupied(block, v)) return;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool upper : {false, true}) {
+        const Vector3i unit = Vector3i::Unit(axis);
+        if (isOccupied(block, upper ? Vector3i(v + unit) : Vector3i(v - unit))) continue;
+        const Vector3i u = Vector3i::Unit((axis + 1) % 3), w = Vector3i::Unit((axis + 2) % 3);
+        const Vector3i low = upper ? Vector3i(v + unit) : v;
+        const int a = vertex(low), b = vertex(low + u), c = vertex(low + u + w), d = vertex(low + w);
+        // a b c d is counter-clockwise about +axis.
+        mesh.triangles.push_back(upper ? Vector3i(a, b, c) : Vector3i(a, c, b));
+        mesh.triangles.push_back(upper ? Vector3i(a, c, d) : Vector3i(a, d, c));
       }
+  });
   return mesh;
 }
 
@@ -73,29 +70,22 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
   GridShape& shape = grid.shape;
 
   LatticeDistance distances;
-  const auto isIn = [&](int x, int y, int z) {
-    const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < kSide;
-    return inside && block.occupied[VoxelBlock::index(x, y, z)];
-  };
   // The window has one layer of free voxels around the block. The voxels beyond are free too, and never the nearest
   // free ones of a point in the block.
   distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide),
-                    isIn);
+                    [&](const Vector3i& v) { return isOccupied(block, v); });
 
   GridData data;
   data.corners.resize(shape.cornerCount());
-  const Vector3i corners = shape.bricks.array() + 1;
-  for (Vector3i c(0, 0, 0); c.z() < corners.z(); ++c.z())
-    for (c.y() = 0; c.y() < corners.y(); ++c.y())
-      for (c.x() = 0; c.x() < corners.x(); ++c.x())
-        data.corners[shape.cornerIndex(c)] = static_cast<float>(shape.cell * distances.at(GridShape::kBrick * c));
+  forEachPoint(shape.bricks.array() + 1, [&](const Vector3i& c) {
+    data.corners[shape.cornerIndex(c)] = static_cast<float>(shape.cell * distances.at(GridShape::kBrick * c));
+  });
 
   data.slots.assign(shape.brickCount(), SparseGrid::kFar);
   BrickSamples samples;
-  for (Vector3i b(0, 0, 0); b.z() < shape.bricks.z(); ++b.z())
-    for (b.y() = 0; b.y() < shape.bricks.y(); ++b.y())
-      for (b.x() = 0; b.x() < shape.bricks.x(); ++b.x())
-        if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
+  forEachPoint(shape.bricks, [&](const Vector3i& b) {
+    if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
+  });
   data.samples = std::move(samples.samples);
   return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
 }

@@ -1,13 +1,14 @@
 // The field of a whole map of voxels; see voxel_field.h.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
 
+#include "common/lattice.h"
 #include "common/parallel_for.h"
 #include "common/processor_time.h"
 #include "common/progress_counter.h"
+#include "field/corner_squares.h"
 #include "field/lattice_grid.h"
 #include "field/spread_order.h"
 #include "field/uniform/uniform_shape.h"
@@ -26,114 +27,6 @@ int cellsPerVoxel(const VoxelSolid& solid, double cell) {
 int floorDivide(int a, int b) {
   return a / b - (a % b != 0 && (a < 0) != (b < 0));
 }
-
-/// Squared distances from the bricks' corners to the nearest occupied, or the nearest free, voxel [cells²]: one axis
-/// after the other, as in LatticeDistance. Along y each corner visits the nearest rows first.
-class CornerSquares {
- public:
-  CornerSquares(const VoxelSolid& solid, const LatticeGrid& grid, bool to_occupied)
-      : solid_(solid),
-        low_(grid.low),
-        corners_(grid.shape.bricks.array() + 1),
-        n_(cellsPerVoxel(solid, grid.shape.cell)),
-        to_occupied_(to_occupied) {}
-
-  /// Corners along x are processed in columns of this width.
-  static constexpr int kWidth = 32;
-  int columns() const { return (corners_.x() + kWidth - 1) / kWidth; }
-
-  /// @param squares  of all corners; those of the column are reduced to the distances found, where these are smaller.
-  void compute(int column, std::vector<float>& squares) const {
-    const int from = column * kWidth, width = std::min(kWidth, corners_.x() - from);
-    const int ring = to_occupied_ ? 0 : 1;  // all voxels outside the box are free
-    std::vector<VoxelSolid::Run> runs;
-    std::vector<Row> rows;
-    std::vector<float> layer(static_cast<std::size_t>(kWidth) * static_cast<std::size_t>(corners_.y()));
-    for (int z = -ring; z < solid_.count().z() + ring; ++z) {
-      rows.clear();
-      for (int y = -ring; y < solid_.count().y() + ring; ++y) {
-        solid_.runs(y, z, runs);
-        if (!to_occupied_) takeRest(runs);
-        if (runs.empty()) continue;
-        rows.push_back({y, {}});
-        alongX(runs, from, width, rows.back().squares);
-      }
-      if (rows.empty()) continue;
-      for (int y = 0; y < corners_.y(); ++y) alongY(rows, y, width, layer.data() + kWidth * y);
-      for (int cz = 0; cz < corners_.z(); ++cz) {
-        const float away = squaredGap(z, low_.z() + GridShape::kBrick * cz);
-        for (int y = 0; y < corners_.y(); ++y) {
-          float* const to =
-              squares.data() +
-              (static_cast<std::size_t>(cz) * static_cast<std::size_t>(corners_.y()) + static_cast<std::size_t>(y)) *
-                  static_cast<std::size_t>(corners_.x()) +
-              static_cast<std::size_t>(from);
-          const float* const of = layer.data() + kWidth * y;
-          for (int x = 0; x < width; ++x) to[x] = std::min(to[x], of[x] + away);
-        }
-      }
-    }
-  }
-
- private:
-  struct Row {
-    int y;
-    std::array<float, kWidth> squares;
-  };
-
-  /// Squared distance from a corner to a voxel along an axis [cells²].
-  float squaredGap(int voxel, int corner) const {
-    const auto gap = static_cast<float>(std::max({0, n_ * voxel - corner, corner - n_ * (voxel + 1)}));
-    return gap * gap;
-  }
-
-  static void takeRest(std::vector<VoxelSolid::Run>& runs) {
-    constexpr int kFar = 1 << 20;
-    std::vector<VoxelSolid::Run> rest;
-    int begin = -kFar;
-    for (const VoxelSolid::Run& run : runs) {
-      rest.push_back({begin, run.begin});
-      begin = run.end;
-    }
-    rest.push_back({begin, kFar});
-    runs = std::move(rest);
-  }
-
-  void alongX(const std::vector<VoxelSolid::Run>& runs, int from, int width, std::array<float, kWidth>& squares) const {
-    std::size_t next = 0;  // the first run that does not end before the corner
-    for (int x = 0; x < width; ++x) {
-      const int corner = low_.x() + GridShape::kBrick * (from + x);
-      while (next < runs.size() && n_ * runs[next].end < corner) ++next;
-      int gap = std::numeric_limits<int>::max();
-      if (next < runs.size()) gap = std::max(0, n_ * runs[next].begin - corner);
-      if (next > 0) gap = std::min(gap, corner - n_ * runs[next - 1].end);
-      squares[static_cast<std::size_t>(x)] = static_cast<float>(gap) * static_cast<float>(gap);
-    }
-  }
-
-  /// Visits the nearest rows first, and stops where rows are too far away to matter.
-  void alongY(const std::vector<Row>& rows, int y, int width, float* best) const {
-    std::fill_n(best, width, std::numeric_limits<float>::infinity());
-    const int corner = low_.y() + GridShape::kBrick * y;
-    const auto middle = std::lower_bound(rows.begin(), rows.end(), corner,
-                                         [&](const Row& row, int value) { return n_ * row.y < value; });
-    auto behind = middle, before = middle;
-    while (behind != rows.end() || before != rows.begin()) {
-      const bool is_behind =
-          before == rows.begin() ||
-          (behind != rows.end() && squaredGap(behind->y, corner) <= squaredGap((before - 1)->y, corner));
-      const Row& row = is_behind ? *behind++ : *--before;
-      const float away = squaredGap(row.y, corner);
-      if (away >= *std::max_element(best, best + width)) return;
-      for (int x = 0; x < width; ++x) best[x] = std::min(best[x], row.squares[static_cast<std::size_t>(x)] + away);
-    }
-  }
-
-  const VoxelSolid& solid_;
-  const Vector3i low_, corners_;
-  const int n_;
-  const bool to_occupied_;
-};
 
 /// The options with a cell of which the voxels' side is exactly a multiple: a small difference adds up along the map.
 FieldOptions exactCell(const VoxelSolid& solid, FieldOptions options) {
@@ -161,7 +54,7 @@ class MapGrid {
 
   /// Processor seconds of corners(), estimated from the middle column.
   double cornerSeconds() const {
-    const CornerSquares squares(solid_, grid_, true);
+    const CornerSquares squares(solid_, grid_, n_, true);
     std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
     const double start = threadSeconds();
     squares.compute(squares.columns() / 2, found);
@@ -169,10 +62,7 @@ class MapGrid {
   }
 
   Vector3i blocks() const { return (shape().bricks.array() + kBlock - 1) / kBlock; }
-  Vector3i blockAt(std::size_t i) const {
-    const auto x = static_cast<std::size_t>(blocks().x()), y = static_cast<std::size_t>(blocks().y());
-    return {static_cast<int>(i % x), static_cast<int>(i / x % y), static_cast<int>(i / x / y)};
-  }
+  Vector3i blockAt(std::size_t i) const { return pointIn(blocks(), i); }
 
   /// Whether a brick may need samples, judged by the distances at its corners.
   bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
@@ -186,10 +76,9 @@ class MapGrid {
   void make(const Vector3i& block, const MayBe& mayBe, std::vector<std::size_t>& bricks, BrickSamples& samples) const {
     const Vector3i first = kBlock * block, end = (first.array() + kBlock).min(shape().bricks.array());
     std::vector<Vector3i> near;
-    for (Vector3i b = first; b.z() < end.z(); ++b.z())
-      for (b.y() = first.y(); b.y() < end.y(); ++b.y())
-        for (b.x() = first.x(); b.x() < end.x(); ++b.x())
-          if (mayBe(b)) near.push_back(b);
+    forEachPoint(first, end, [&](const Vector3i& b) {
+      if (mayBe(b)) near.push_back(b);
+    });
     if (near.empty()) return;
     const int reach = farthestSample(shape());
     const Vector3i low = grid_.low + GridShape::kBrick * first, high = grid_.low + GridShape::kBrick * end;
@@ -200,7 +89,7 @@ class MapGrid {
     }
     LatticeDistance distances;
     distances.compute(n_, low, (high - low).array() + 1, first_voxel, last_voxel,
-                      [&](int x, int y, int z) { return solid_.isIn(x, y, z); });
+                      [&](const Vector3i& v) { return solid_.isIn(v.x(), v.y(), v.z()); });
     for (const Vector3i& b : near)
       if (samples.take(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
   }
@@ -208,7 +97,7 @@ class MapGrid {
  private:
   std::vector<float> squares(bool to_occupied) const {
     std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
-    const CornerSquares squares(solid_, grid_, to_occupied);
+    const CornerSquares squares(solid_, grid_, n_, to_occupied);
     parallelFor(0, squares.columns(), [&](int column) { squares.compute(column, found); });
     return found;
   }

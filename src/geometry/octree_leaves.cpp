@@ -24,38 +24,22 @@ class LeafReader {
 
   void readBinary() {
     push({0, 0, 0}, kDepth, children16());
-    while (depth_ > 0) {
-      Open& node = open_[depth_ - 1];
-      if (node.next == 8) {
-        --depth_;
-        continue;
-      }
-      const int i = node.next++;
+    forEachChild([this](const Open& node, int i) {
       const unsigned bits = node.children >> (2 * i) & 3U;
-      if (bits == 0) continue;
-      const Corner low = childOf(node, i);
       if (bits == 3) {
-        push(low, node.level - 1, children16());
-      } else {
+        push(childOf(node, i), node.level - 1, children16());
+      } else if (bits != 0) {
         // OctoMap writes a free leaf as 1, an occupied one as 2.
-        leaf(low, node.level - 1, bits == 2);
+        leaf(childOf(node, i), node.level - 1, bits == 2);
       }
-    }
+    });
   }
 
   void readFull(std::size_t colour) {
     readNode({0, 0, 0}, kDepth, colour);
-    while (depth_ > 0) {
-      Open& node = open_[depth_ - 1];
-      if (node.next == 8) {
-        --depth_;
-        continue;
-      }
-      const int i = node.next++;
-      if ((node.children >> i & 1U) == 0) continue;
-      const Corner low = childOf(node, i);
-      readNode(low, node.level - 1, colour);
-    }
+    forEachChild([this, colour](const Open& node, int i) {
+      if ((node.children >> i & 1U) != 0) readNode(childOf(node, i), node.level - 1, colour);
+    });
   }
 
   void requireEnd() const {
@@ -66,6 +50,19 @@ class LeafReader {
   struct Corner {
     std::uint32_t low[3];
   };
+
+  /// Calls read(node, i) for child i of each open node, also of those that it opens.
+  template <typename Read>
+  void forEachChild(const Read& read) {
+    while (depth_ > 0) {
+      Open& node = open_[depth_ - 1];
+      if (node.next == 8) {
+        --depth_;
+      } else {
+        read(node, node.next++);
+      }
+    }
+  }
 
   [[noreturn]] static void fail(const std::string& what) { throw std::runtime_error("octree: its data " + what); }
 

@@ -27,7 +27,7 @@ class GradientBoundTest : public testing::Test {
     const Vector3d around = cube.corner(7);
     const NearCube found(index, {around, 2.0 * cube.side}, surface.nearest(around));
     NearOctants octants(found.near());
-    GradientBound::Corners exact, values;
+    GradientBound::CornerValues exact, values;
     for (int k = 0; k < 8; ++k) {
       exact[k] = surface.signedDistance(cube.corner(k));
       values[k] = exact[k] + test::uniform(random_, -wrong, wrong);

@@ -6,6 +6,7 @@
 
 #include "adaptive_shape.h"
 #include "block_builder.h"
+#include "common/lattice.h"
 #include "common/processor_time.h"
 #include "field/field_cost.h"
 #include "field/sample_mean.h"
@@ -74,13 +75,10 @@ class BlockSample {
     const auto blockOf = [&](const Vector3d& p) -> Vector3i {
       return ((p - shape_.origin) / builder_.side()).array().floor().cast<int>().max(0).min(blocks_.array() - 1);
     };
-    const Vector3i low = blockOf(box.min()), high = blockOf(box.max());
-    for (int z = low.z(); z <= high.z(); ++z)
-      for (int y = low.y(); y <= high.y(); ++y)
-        for (int x = low.x(); x <= high.x(); ++x) {
-          Kind& of = kinds_[(std::size_t(z) * blocks_.y() + y) * blocks_.x() + x];
-          of = std::max(of, kind);
-        }
+    forEachPoint(blockOf(box.min()), blockOf(box.max()) + Vector3i::Ones(), [&](const Vector3i& block) {
+      Kind& of = kinds_[indexIn(blocks_, block)];
+      of = std::max(of, kind);
+    });
   }
 
   /// Cells divide most where triangles do not determine the sign, and more near vertices, where the surface

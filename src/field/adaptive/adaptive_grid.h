@@ -184,7 +184,11 @@ class AdaptiveGrid {
   static LeafScale leafScaleFor(double h, double band) { return LeafScale::forCell(h, band + 3.5 * h); }
 
  private:
-  void check() const;
+  /// Sizes, and the lengths of the arrays.
+  void checkShape() const;
+  /// Walks from all top cells: indices; that each node has only one parent, and is at most kMaxDepth levels below the
+  /// top cells.
+  void checkTree() const;
   void setScales();
   AdaptiveBlock farTopBlock(const Vector3i& low, const EmptySphere& ball) const;
 

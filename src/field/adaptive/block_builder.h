@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cell_fit.h"
+#include "common/lattice.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
 #include "field/near_octants.h"
@@ -58,11 +59,7 @@ class BlockBuilder {
   Vector3i blocks() const { return (shape_.size.array() + (kSide - 1)) / kSide; }
   std::size_t count() const { return std::size_t(blocks().x()) * blocks().y() * blocks().z(); }
   /// The i-th block, x fastest.
-  Vector3i block(std::size_t i) const {
-    const Vector3i blocks = this->blocks();
-    const std::size_t row = i / blocks.x();
-    return {int(i % blocks.x()), int(row % blocks.y()), int(row / blocks.y())};
-  }
+  Vector3i block(std::size_t i) const { return pointIn(blocks(), i); }
   Vector3d center(const Vector3i& block) const { return center(Block{kSide * block, kSide}); }
   double side() const { return kSide * shape_.cell; }
   /// Whether all of a block is far, given its centre's distance from the surface [m].
@@ -88,9 +85,7 @@ class BlockBuilder {
     return shape_.origin + shape_.cell * (block.low.cast<double>().array() + 0.5 * block.side).matrix();
   }
   bool withinGrid(const Vector3i& cell) const { return (cell.array() < shape_.size.array()).all(); }
-  std::size_t index(const Vector3i& cell) const {
-    return (std::size_t(cell.z()) * shape_.size.y() + cell.y()) * shape_.size.x() + cell.x();
-  }
+  std::size_t index(const Vector3i& cell) const { return indexIn(shape_.size, cell); }
   /// Whether |φ| > band in all of a cube of this side.
   bool isFar(double center_distance, double side) const {
     return std::abs(center_distance) > shape_.band + kHalfSqrt3 * side * (1.0 + 1e-9);

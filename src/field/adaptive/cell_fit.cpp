@@ -70,8 +70,8 @@ void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
       }
 }
 
-CellFit::Corners CellFit::cornersOf(const Cube& cube) const {
-  Corners values;
+CellFit::CornerValues CellFit::cornersOf(const Cube& cube) const {
+  CornerValues values;
   for (int k = 0; k < 8; ++k) values[k] = at(cube.low + cube.side * cubeCorner(k));
   return values;
 }
@@ -105,7 +105,7 @@ CellFit::Lattice CellFit::finestLattice(const Cube& cube, const NearTriangles& n
 }
 
 Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                             const Lattice& exact, const Corners& leaf, double most) {
+                             const Lattice& exact, const CornerValues& leaf, double most) {
   const Deviation seen = deviationOf(difference(refined(leaf), exact));
   if (seen.largest() > most) return seen;
   const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(cube), leaf, seen);
@@ -117,13 +117,13 @@ Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const 
 }
 
 Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                                    const Lattice& exact, const Corners& leaf, double most) {
+                                    const Lattice& exact, const CornerValues& leaf, double most) {
   const Lattice values = refined(leaf);
   Deviation worst = deviationOf(difference(values, exact));
   std::optional<NearOctants> own;
   for (int k = 0; k < 8 && worst.largest() <= most; ++k) {
     const Cube part{cube.low + cube.side / 2 * cubeCorner(k), cube.side / 2};
-    const Corners part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
+    const CornerValues part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
     Deviation found = bound.deviation(step_ * part.side, part_exact, part_leaf, worst);
     if (found.largest() > most) {
       if (cube.side < kSteps && !own) own.emplace(near);
@@ -148,7 +148,7 @@ std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& n
   take(cube, 1, near);
   const Vector3i middle = cube.low.array() + cube.side / 2;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
-  Corners corners = cornersOf(cube);
+  CornerValues corners = cornersOf(cube);
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
   if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
   // Curvature makes the interpolant deviate to one side: subtracting half of that halves the largest error.

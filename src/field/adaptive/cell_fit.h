@@ -49,7 +49,7 @@ class CellFit {
     Vector3i low;
     int side;
   };
-  using Corners = GradientBound::Corners;
+  using CornerValues = GradientBound::CornerValues;
   using Lattice = std::array<double, 27>;  ///< of a cube: corners and middles between them, x fastest
 
   static constexpr int kSide = kSteps / kKept + 1;  ///< points that are kept along each side
@@ -64,7 +64,7 @@ class CellFit {
   /// Computes the missing distances at the cube's points, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
   /// The distances at the corners of a cube, which must have been computed before.
-  Corners cornersOf(const Cube& cube) const;
+  CornerValues cornersOf(const Cube& cube) const;
   /// The distances at the points of a cube.
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// latticeOf() a cube of two steps, whose middle points are not kept.
@@ -74,9 +74,9 @@ class CellFit {
   /// @param exact  the distances at the cube's points.
   /// @param leaf   the interpolant's values at the cube's corners.
   Deviation deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound, const Lattice& exact,
-                      const Corners& leaf, double most);
+                      const CornerValues& leaf, double most);
   Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                             const Lattice& exact, const Corners& leaf, double most);
+                             const Lattice& exact, const CornerValues& leaf, double most);
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

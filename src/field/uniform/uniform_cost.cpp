@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "brick_sampler.h"
+#include "common/lattice.h"
 #include "common/processor_time.h"
 #include "field/field_cost.h"
 #include "field/sample_mean.h"
@@ -38,10 +39,7 @@ class BrickSample {
  private:
   double side() const { return GridShape::kBrick * shape_.cell; }
 
-  Vector3i at(std::size_t i) const {
-    const std::size_t row = i / shape_.bricks.x();
-    return {int(i % shape_.bricks.x()), int(row % shape_.bricks.y()), int(row / shape_.bricks.y())};
-  }
+  Vector3i at(std::size_t i) const { return pointIn(shape_.bricks, i); }
 
   /// Finds which bricks need samples, within a time limit.
   void findNeeded() {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "common/infinity.h"
 #include "common/number_text.h"
 #include "field/cube_corner.h"
 
@@ -41,7 +41,7 @@ GridShape uniformShape(const AlignedBox3d& surface_box, const FieldOptions& opti
 }
 
 double nearestCorner(const GridShape& shape, const std::vector<float>& corners, const Vector3i& brick) {
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = kInfinity;
   for (int k = 0; k < 8; ++k)
     nearest = std::min(nearest, std::abs(double(corners[shape.cornerIndex(brick + cubeCorner(k))])));
   return nearest;
