@@ -24,8 +24,7 @@ class ContinuousIntegrator : public Integrator {
     drift(world_, velocities_, duration, step, states, motion_);
     integrateAll(duration);
 
-    restMotion(states, duration, pose_);
-    endContacts(world_, pose_, search_, contacts_);
+    contactsAtRest(world_, states, search_, contacts_);
     measure(contacts_, report);
   }
 
@@ -75,7 +74,7 @@ class ContinuousIntegrator : public Integrator {
   ContactSearch search_;
   std::vector<Wrench> average_;  // contact force and torque of the last step per body, about its origin
   std::vector<Vector3d> velocities_;
-  StepMotion motion_, pose_;
+  StepMotion motion_;
   std::vector<Isometry3d> X_CF_;
   ContactImpulse impulse_;
   std::vector<PairContacts> contacts_;

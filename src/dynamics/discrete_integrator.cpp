@@ -11,7 +11,8 @@ class DiscreteIntegrator : public Integrator {
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
     std::vector<Wrench> impulses(states.size());
-    if (!foundAt(states)) find(states);
+    // The contacts at a pose are known from the end of the step that led to it.
+    if (!endsAt(motion_, states)) contactsAtRest(world_, states, search_, contacts_);
     for (const PairContacts& pair : contacts_) {
       const BodyState& shell = states[pair.shell_body];
       const BodyState& field = states[pair.field_body];
@@ -28,25 +29,11 @@ class DiscreteIntegrator : public Integrator {
     velocities_.clear();
     for (const BodyState& state : states) velocities_.push_back(state.velocity);
     drift(world_, velocities_, duration, step, states, motion_);
-    find(states);
+    contactsAtRest(world_, states, search_, contacts_);
     measure(contacts_, report);
   }
 
  private:
-  void find(const std::vector<BodyState>& states) {
-    restMotion(states, 1.0, motion_);
-    endContacts(world_, motion_, search_, contacts_);
-  }
-
-  /// The contacts at a pose are known from the end of the step that led to it.
-  bool foundAt(const std::vector<BodyState>& states) const {
-    if (motion_.X_OB.size() != states.size()) return false;
-    for (std::size_t b = 0; b < states.size(); ++b) {
-      if (motion_.X_OB[b].back().matrix() != states[b].X_OB.matrix()) return false;
-    }
-    return true;
-  }
-
   /// Eq. 3 and the integrand of Eq. 10, at one pose, on the shell's body.
   Vector3d force(const PointContact& point, const BodyState& shell, const BodyState& field) const {
     const Vector3d N =

@@ -129,6 +129,13 @@ void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearc
   });
 }
 
+void contactsAtRest(const RigidWorld& world, const std::vector<BodyState>& states, ContactSearch& search,
+                    std::vector<PairContacts>& contacts) {
+  StepMotion motion;
+  restMotion(states, 1.0, motion);
+  endContacts(world, motion, search, contacts);
+}
+
 double elasticEnergy(const PairContacts& contacts) {
   double energy = 0.0;
   for (const PointContact& point : contacts.points) energy += 0.5 * point.stiffness * point.depth * point.depth;

@@ -24,7 +24,7 @@ struct PairContacts {
   std::vector<PointContact> points;
 };
 
-/// All contacts of a motion, at its end; for bodies at rest, those of a pose.
+/// All contacts of a motion, at its end.
 ///
 /// A point that has left the solid on the side where it entered is listed with no gap (but with its damping). A point
 /// that passed through is held by the plane where it entered: its gap is negative whatever the field is at its end. It
@@ -32,6 +32,10 @@ struct PairContacts {
 /// the error of its path and field, as in a corner; past an edge that it only grazed it goes on.
 void endContacts(const RigidWorld& world, const StepMotion& motion, ContactSearch& search,
                  std::vector<PairContacts>& contacts);
+
+/// The contacts of bodies at rest.
+void contactsAtRest(const RigidWorld& world, const std::vector<BodyState>& states, ContactSearch& search,
+                    std::vector<PairContacts>& contacts);
 
 /// Σ ½ k φ² [J].
 double elasticEnergy(const PairContacts& contacts);

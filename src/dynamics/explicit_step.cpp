@@ -42,10 +42,8 @@ void measure(const std::vector<PairContacts>& contacts, StepReport& report) {
 
 void measureContacts(const RigidWorld& world, const std::vector<BodyState>& states, StepReport& report) {
   ContactSearch search(world);
-  StepMotion motion;
   std::vector<PairContacts> contacts;
-  restMotion(states, 1.0, motion);
-  endContacts(world, motion, search, contacts);
+  contactsAtRest(world, states, search, contacts);
   measure(contacts, report);
 }
 

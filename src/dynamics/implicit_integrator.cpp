@@ -29,23 +29,12 @@ class ImplicitIntegrator : public Integrator {
 
   void advance(double duration, long step, std::vector<BodyState>& states, StepReport& report) override {
     report = {};
-    if (!startsWhereLastEnded(states)) {
-      restMotion(states, 1.0, motion_);
-      endContacts(world_, motion_, search_, contacts_);
-    }
+    if (!endsAt(motion_, states)) contactsAtRest(world_, states, search_, contacts_);
     advancePart(duration, step, 0, states, report);
     measure(contacts_, report);
   }
 
  private:
-  bool startsWhereLastEnded(const std::vector<BodyState>& states) const {
-    if (motion_.X_OB.size() != states.size()) return false;
-    for (std::size_t b = 0; b < states.size(); ++b) {
-      if (motion_.X_OB[b].back().matrix() != states[b].X_OB.matrix()) return false;
-    }
-    return true;
-  }
-
   void advancePart(double duration, long step, int halvings, std::vector<BodyState>& states, StepReport& report) {
     const std::vector<BodyState> start = states;
     const std::vector<PairContacts> contacts_at_start = contacts_;

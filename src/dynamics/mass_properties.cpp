@@ -7,11 +7,10 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/number_text.h"
+#include "common/pi.h"
 
 namespace sdf_ccd {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 void requireDensity(double density) {
   if (!(density > 0.0) || !std::isfinite(density)) {

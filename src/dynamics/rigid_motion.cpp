@@ -86,6 +86,12 @@ void restMotion(const std::vector<BodyState>& states, double duration, StepMotio
   for (std::size_t b = 0; b < states.size(); ++b) motion.X_OB[b].assign(2, states[b].X_OB);
 }
 
+bool endsAt(const StepMotion& motion, const std::vector<BodyState>& states) {
+  return std::equal(
+      motion.X_OB.begin(), motion.X_OB.end(), states.begin(), states.end(),
+      [](const auto& X_OB, const BodyState& state) { return X_OB.back().matrix() == state.X_OB.matrix(); });
+}
+
 void drift(const RigidWorld& world, const std::vector<Vector3d>& velocities, double duration, long step,
            std::vector<BodyState>& states, StepMotion& motion) {
   double angle = 0.0;

@@ -27,6 +27,9 @@ struct StepMotion {
 /// All bodies at rest in their poses, for `duration` [s].
 void restMotion(const std::vector<BodyState>& states, double duration, StepMotion& motion);
 
+/// Whether a motion ends in these poses.
+bool endsAt(const StepMotion& motion, const std::vector<BodyState>& states);
+
 /// Moves all bodies for `duration` under no force. Reuses the memory of `motion`.
 /// @param velocities  per body: of its origin [m/s]; state.velocity is neither read nor changed.
 /// @throws SimulationError (with `step`) for a body whose state is not finite, farther than 1e9 m from the scene's

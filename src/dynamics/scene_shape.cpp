@@ -1,6 +1,6 @@
 #include "scene_shape.h"
 
-#include <map>
+#include <optional>
 
 #include "geometry/generated_mesh.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -26,45 +26,25 @@ int readSteps(YamlMap& shape, int otherwise) {
   return shape.count("steps", otherwise, 3, 1000);
 }
 
-using Maker = TriangleMesh (*)(YamlMap& shape, const std::string& directory);
-
-const std::map<std::string, Maker>& meshMakers() {
-  static const std::map<std::string, Maker> makers = {
-      {"mesh",
-       [](YamlMap& shape, const std::string& directory) {
-         const auto file = shape.get<std::string>("file");
-         const bool absolute = !file.empty() && file.front() == '/';
-         return scaled(loadMesh(absolute ? file : directory + "/" + file), Vector3d::Constant(shape.get("scale", 1.0)));
-       }},
-      {"bowl",
-       [](YamlMap& shape, const std::string&) {
-         return bowlMesh(shape.get<double>("radius"), shape.get<double>("thickness"), readSteps(shape, 64));
-       }},
-      {"blob",
-       [](YamlMap& shape, const std::string&) {
-         return blobMesh(shape.get<double>("radius"), shape.get("bump", 0.2), shape.count("points", 800, 4, 1'000'000));
-       }},
-      {"top",
-       [](YamlMap& shape, const std::string&) {
-         return topMesh(shape.get<double>("radius"), shape.get<double>("height"), readSteps(shape, 48));
-       }},
-      {"wedge",
-       [](YamlMap& shape, const std::string&) {
-         return wedgeMesh(shape.get<double>("width"), shape.get<double>("height"), shape.get<double>("length"));
-       }},
-      {"slot",
-       [](YamlMap& shape, const std::string&) {
-         return slotMesh(shape.get<double>("width"), shape.get<double>("height"), shape.get<double>("length"));
-       }},
-      {"bolt",
-       [](YamlMap& shape, const std::string&) {
-         return boltMesh(readThread(shape), shape.get<double>("length"), readSteps(shape, 64));
-       }},
-      {"nut", [](YamlMap& shape, const std::string&) {
-         const Thread thread = readThread(shape);
-         return nutMesh(thread, shape.get<double>("clearance"), shape.get<double>("height"), readSteps(shape, 64));
-       }}};
-  return makers;
+std::optional<TriangleMesh> readMesh(YamlMap& shape, const std::string& type, const std::string& directory) {
+  const auto length = [&](const char* key) { return shape.get<double>(key); };
+  if (type == "mesh") {
+    const auto file = shape.get<std::string>("file");
+    const bool absolute = !file.empty() && file.front() == '/';
+    return scaled(loadMesh(absolute ? file : directory + "/" + file), Vector3d::Constant(shape.get("scale", 1.0)));
+  }
+  if (type == "bowl") return bowlMesh(length("radius"), length("thickness"), readSteps(shape, 64));
+  if (type == "blob")
+    return blobMesh(length("radius"), shape.get("bump", 0.2), shape.count("points", 800, 4, 1'000'000));
+  if (type == "top") return topMesh(length("radius"), length("height"), readSteps(shape, 48));
+  if (type == "wedge") return wedgeMesh(length("width"), length("height"), length("length"));
+  if (type == "slot") return slotMesh(length("width"), length("height"), length("length"));
+  if (type == "bolt") return boltMesh(readThread(shape), length("length"), readSteps(shape, 64));
+  if (type == "nut") {
+    const Thread thread = readThread(shape);
+    return nutMesh(thread, length("clearance"), length("height"), readSteps(shape, 64));
+  }
+  return std::nullopt;
 }
 
 /// Mass properties at 1 kg/m³; empty if the geometry has none, because a fixed body needs none.
@@ -105,9 +85,9 @@ SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
     }
     collision = makeShape(*primitive, shell);
   } else {
-    const auto maker = meshMakers().find(type);
-    if (maker == meshMakers().end()) shape.fail(shape.node("type"), "type `" + type + "` is not known");
-    const OrientedMesh oriented = orientOutward(maker->second(shape, directory));
+    const std::optional<TriangleMesh> drawn = readMesh(shape, type, directory);
+    if (!drawn) shape.fail(shape.node("type"), "type `" + type + "` is not known");
+    const OrientedMesh oriented = orientOutward(*drawn);
     const TriangleMesh& mesh = oriented.mesh;
     if (oriented.quality.sign_trusted)
       built.unit = unitMass(mesh);
