@@ -64,17 +64,6 @@ struct ExactDepths {
   }
 };
 
-Measurement labelled(const Label& label, const std::string& quantity) {
-  Measurement row;
-  row.quantity = quantity;
-  row.unit = "m";
-  row.system = label.system;
-  row.setting = label.setting;
-  row.value = label.value;
-  row.bound = label.bound;
-  return row;
-}
-
 void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, const StudyInput& input,
                  StudyResult& result) {
   std::vector<std::vector<double>> found(systems.size());
@@ -85,7 +74,7 @@ void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, 
   const std::vector<double> seconds =
       secondsPerQuery(tasks, exact.segments.size(), [&](double share) { input.progress(0.8 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
-    Measurement row = labelled(systems[k].label, "time of impact (length along the path)");
+    Measurement row{systems[k].label, "time of impact (length along the path)", "m"};
     row.bound = Measurement::kNone;  // it bounds the surface's location, not the time of impact
     row.seconds = seconds[k];
     std::vector<double> errors;
@@ -115,7 +104,7 @@ void measureDepths(const ExactDepths& exact, const std::vector<DistanceSystem>& 
   const std::vector<double> seconds =
       secondsPerQuery(tasks, exact.points.size(), [&](double share) { input.progress(0.9 + 0.1 * share); });
   for (std::size_t k = 0; k < systems.size(); ++k) {
-    Measurement row = labelled(systems[k].label, "depth");
+    Measurement row{systems[k].label, "depth", "m"};
     row.seconds = seconds[k];
     std::vector<double> errors;
     for (std::size_t i = 0; i < exact.points.size(); ++i) {

@@ -10,14 +10,7 @@ namespace {
 /// @param found  time of impact per motion; negative if none was found.
 Measurement rowOf(const Label& label, double seconds, const std::vector<ExactImpact>& exact,
                   const std::vector<double>& found) {
-  Measurement row;
-  row.quantity = "time of impact (length of travel)";
-  row.unit = "m";
-  row.system = label.system;
-  row.setting = label.setting;
-  row.value = label.value;
-  row.bound = label.bound;
-  row.seconds = seconds;
+  Measurement row{label, "time of impact (length of travel)", "m", seconds};
   std::vector<double> errors;
   for (std::size_t i = 0; i < exact.size(); ++i) {
     if (found[i] >= 0.0) errors.push_back(std::abs(found[i] - exact[i].time) * exact[i].travel);

@@ -10,14 +10,6 @@
 /// The systems that studies compare: this package, and other libraries if the calling program provides them.
 namespace sdf_ccd::precision {
 
-/// Name, setting and error bound of a system in a row of the results.
-struct Label {
-  std::string system;
-  std::string setting;
-  double value = Measurement::kNone;
-  double bound = Measurement::kNone;
-};
-
 /// Computes the parameters in [0, 1] at which segments first meet the surface; negative for those that do not.
 struct HitSystem {
   Label label;

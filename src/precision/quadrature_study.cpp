@@ -16,12 +16,12 @@ constexpr double kSpacing = 0.05;  // of the shell's points [box sides]
 constexpr int kReferencePoints = 10'000;
 
 struct Rule {
-  std::string system, setting;
+  Label label;
   ContactOptions options;
 };
 
 Rule midpoint(int points) {
-  Rule rule{"midpoint rule", "N = " + std::to_string(points), {}};
+  Rule rule{{"midpoint rule", "N = " + std::to_string(points), double(points)}, {}};
   rule.options.quadrature = Quadrature::kMidpoint;
   rule.options.midpoint_intervals = points;
   return rule;
@@ -57,7 +57,7 @@ StudyResult quadratureStudy(const StudyInput& input) {
     input.progress(0.2 + 0.4 * (done + 0.7));
     std::vector<Rule> rules;
     for (const int points : {5, 10, 20, 40}) rules.push_back(midpoint(points));
-    rules.push_back({"exact rule", "", {}});
+    rules.push_back({{"exact rule", ""}, {}});
     std::vector<std::vector<Vector3d>> found(rules.size(), exact);
     std::vector<std::function<void()>> tasks;
     for (std::size_t k = 0; k < rules.size(); ++k) tasks.push_back([&, k] { run(rules[k].options, found[k]); });
@@ -67,16 +67,9 @@ StudyResult quadratureStudy(const StudyInput& input) {
       std::vector<double> errors;
       for (std::size_t i = 0; i < queries.size(); ++i)
         errors.push_back((found[k][i] - exact[i]).norm() / exact[i].norm());
-      Measurement row;
-      row.quantity =
-          normal == NormalSource::kField ? "impulse with normals of the field" : "impulse with normals of the shell";
-      row.unit = "of the impulse";
-      row.system = rules[k].system;
-      row.setting = rules[k].setting;
-      if (rules[k].options.quadrature == Quadrature::kMidpoint) row.value = rules[k].options.midpoint_intervals;
-      row.seconds = seconds[k];
-      row.error = summarize(std::move(errors));
-      result.rows.push_back(row);
+      const char* source = normal == NormalSource::kField ? "field" : "shell";
+      result.rows.push_back({rules[k].label, std::string("impulse with normals of the ") + source, "of the impulse",
+                             seconds[k], summarize(std::move(errors))});
     }
     done += 1.0;
   }

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/pi.h"
+
 namespace sdf_ccd::precision {
-namespace {
-
-constexpr double kTwoPi = 6.283185307179586;
-
-}  // namespace
 
 double uniform(Random& random, double low, double high) {
   return low + (high - low) * (double(random() >> 11) * 0x1.0p-53);
@@ -21,12 +18,12 @@ Vector3d uniformIn(Random& random, const AlignedBox3d& box) {
 }
 
 Vector3d direction(Random& random) {
-  const double z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, kTwoPi), r = std::sqrt(1.0 - z * z);
+  const double z = uniform(random, -1.0, 1.0), angle = uniform(random, 0.0, 2.0 * kPi), r = std::sqrt(1.0 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
 Matrix3d rotation(Random& random) {
-  const double u = uniform(random, 0.0, 1.0), a = uniform(random, 0.0, kTwoPi), b = uniform(random, 0.0, kTwoPi);
+  const double u = uniform(random, 0.0, 1.0), a = uniform(random, 0.0, 2.0 * kPi), b = uniform(random, 0.0, 2.0 * kPi);
   const double v = std::sqrt(1.0 - u), w = std::sqrt(u);
   return Quaterniond(v * std::sin(a), v * std::cos(a), w * std::sin(b), w * std::cos(b)).toRotationMatrix();
 }

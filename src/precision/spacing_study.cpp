@@ -1,7 +1,6 @@
 /// The study `spacing`: force and depth over the spacing of a shell's points.
 
 #include <cmath>
-#include <memory>
 
 #include "common/number_text.h"
 #include "contact_query.h"
@@ -14,6 +13,22 @@ namespace {
 
 constexpr int kCells = 128;
 constexpr double kReference = 0.004;  // spacing of the reference shell [box sides]
+
+struct Contacts {
+  std::vector<Vector3d> forces;
+  std::vector<double> depths;
+};
+
+Contacts contactsOf(const DistanceField& field, const TreeShell& shell, const std::vector<Motion>& motions) {
+  Contacts found;
+  for (const Motion& motion : motions) {
+    ContactQuery query(field, shell, motion);
+    query.find();
+    found.forces.push_back(query.integrate({}).on_shell_body.force);
+    found.depths.push_back(query.deepest());
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -31,61 +46,31 @@ StudyResult spacingStudy(const StudyInput& input) {
   const TreeShell reference(input.mesh, kReference * side);
   const std::vector<Motion> motions =
       presses(field, reference, std::max(10, input.queries / 20), 0.01 * side, 0.04 * side, 0.005 * side);
-  const ContactOptions contact;
-  std::vector<Vector3d> exact_forces;
-  std::vector<double> exact_depths;
-  for (const Motion& motion : motions) {
-    ContactQuery query(field, reference, motion);
-    query.find();
-    exact_forces.push_back(query.integrate(contact).on_shell_body.force);
-    exact_depths.push_back(query.deepest());
-  }
+  const Contacts exact = contactsOf(field, reference, motions);
   input.progress(0.6);
 
-  std::vector<std::unique_ptr<TreeShell>> shells;
-  std::vector<Measurement> forces, depths;
-  std::vector<std::vector<Vector3d>> found_forces;
-  std::vector<std::vector<double>> found_depths;
+  const std::vector<double> spacings{0.1, 0.05, 0.025, 0.0125, 0.00625};  // [box sides]
+  std::vector<TreeShell> shells;
+  for (const double share : spacings) shells.emplace_back(input.mesh, share * side);
+  std::vector<Contacts> found(shells.size());
   std::vector<std::function<void()>> tasks;
-  for (const double share : {0.1, 0.05, 0.025, 0.0125, 0.00625}) {
-    shells.push_back(std::make_unique<TreeShell>(input.mesh, share * side));
-    Measurement row;
-    row.system = "sdf_ccd";
-    row.setting = lengthText(share * side) + " (" + std::to_string(shells.back()->shell.size()) + ")";
-    row.value = share * side;
-    row.quantity = "force";
-    row.unit = "of the force";
-    forces.push_back(row);
-    row.quantity = "missed depth";
-    row.unit = "m";
-    row.bound = shells.back()->shell.covering_radius;
-    depths.push_back(row);
-  }
-  found_forces.assign(shells.size(), std::vector<Vector3d>(motions.size()));
-  found_depths.assign(shells.size(), std::vector<double>(motions.size()));
-  for (std::size_t k = 0; k < shells.size(); ++k) {
-    tasks.push_back([&, k] {
-      for (std::size_t i = 0; i < motions.size(); ++i) {
-        ContactQuery query(field, *shells[k], motions[i]);
-        query.find();
-        found_forces[k][i] = query.integrate(contact).on_shell_body.force;
-        found_depths[k][i] = query.deepest();
-      }
-    });
-  }
+  for (std::size_t k = 0; k < shells.size(); ++k)
+    tasks.push_back([&, k] { found[k] = contactsOf(field, shells[k], motions); });
   const std::vector<double> seconds =
       secondsPerQuery(tasks, motions.size(), [&](double share) { input.progress(0.6 + 0.4 * share); });
+  std::vector<Measurement> depths;
   for (std::size_t k = 0; k < shells.size(); ++k) {
     std::vector<double> force_errors, depth_errors;
     for (std::size_t i = 0; i < motions.size(); ++i) {
-      force_errors.push_back((found_forces[k][i] - exact_forces[i]).norm() / exact_forces[i].norm());
-      depth_errors.push_back(std::abs(exact_depths[i] - found_depths[k][i]));
+      force_errors.push_back((found[k].forces[i] - exact.forces[i]).norm() / exact.forces[i].norm());
+      depth_errors.push_back(std::abs(exact.depths[i] - found[k].depths[i]));
     }
-    forces[k].seconds = depths[k].seconds = seconds[k];
-    forces[k].error = summarize(std::move(force_errors));
-    depths[k].error = summarize(std::move(depth_errors));
+    const double spacing = spacings[k] * side;
+    Label label{"sdf_ccd", lengthText(spacing) + " (" + std::to_string(shells[k].shell.size()) + ")", spacing};
+    result.rows.push_back({label, "force", "of the force", seconds[k], summarize(std::move(force_errors))});
+    label.bound = shells[k].shell.covering_radius;
+    depths.push_back({label, "missed depth", "m", seconds[k], summarize(std::move(depth_errors))});
   }
-  result.rows = forces;
   result.rows.insert(result.rows.end(), depths.begin(), depths.end());
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/pi.h"
 #include "random_inputs.h"
 #include "sdf_ccd/dynamics/simulation.h"
 #include "studies.h"
@@ -15,8 +16,8 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr double kOmega = 1000.0;                       // [rad/s]
-constexpr double kPeriod = 6.283185307179586 / kOmega;  // [s]
+constexpr double kOmega = 1000.0;               // [rad/s]
+constexpr double kPeriod = 2.0 * kPi / kOmega;  // [s]
 constexpr int kPeriods = 5;
 constexpr int kScenes = 20;
 constexpr double kUseless = 10.0;  // errors are clamped to this: the scheme is unstable
@@ -118,17 +119,11 @@ StudyResult stepStudy(const StudyInput& input) {
     for (const Scheme scheme : {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit}) {
       for (const double s : phases) {
         const double step = s / kOmega;
-        Measurement row;
-        row.quantity = of.quantity;
-        row.unit = of.unit;
-        row.system = toString(scheme);
-        row.setting = fmt::format("{:g} ms", 1e3 * step);
-        row.value = step;
         const std::size_t k = rows.size();
         tasks.push_back([&, k, scheme, step] {
           for (std::size_t i = 0; i < scenes.size(); ++i) errors[k][i] = errorOf(of.run, scheme, step, scenes[i]);
         });
-        rows.push_back(row);
+        rows.push_back({{toString(scheme), fmt::format("{:g} ms", 1e3 * step), step}, of.quantity, of.unit});
       }
     }
     errors.assign(rows.size(), std::vector<double>(scenes.size()));

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include <tbb/global_control.h>
 
+#include "common/processor_time.h"
 #include "error_summary.h"
 
 namespace sdf_ccd::precision {
@@ -13,12 +13,6 @@ namespace {
 
 constexpr int kRounds = 7;
 constexpr double kShortest = 2e-3;  // minimum time of a task in a round [s]
-
-double threadSeconds() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 double seconds(const std::function<void()>& task, int times) {
   const double start = threadSeconds();
