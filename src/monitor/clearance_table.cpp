@@ -14,7 +14,7 @@ namespace {
 using namespace lanes;
 
 constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes without a pair
-constexpr float kUp = 1.0F + 0x1p-20F;
+constexpr float kUpwards = 1.0F + 0x1p-20F;
 constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
 using Vector = LaneVector<Floats>;
@@ -67,14 +67,14 @@ SDF_CCD_INLINE Floats travelOf(const A& a, const B& b) {
   const Floats noise = (a(TwistRow::kTurnNoise) + b(TwistRow::kTurnNoise)) * (a(TwistRow::kFar) + b(TwistRow::kFar)) +
                        (a(TwistRow::kShiftNoise) + b(TwistRow::kShiftNoise));
   // The last factor also covers the error of a contact's time, 1e-9 of the path.
-  return (smaller(by_a, by_b) + noise) * kUp;
+  return (smaller(by_a, by_b) + noise) * kUpwards;
 }
 
 /// Error of the distance from poses and motions.
 template <class A, class B>
 SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
   const Floats far = a(TwistRow::kFarthest) + b(TwistRow::kFarthest);
-  return ((a(TwistRow::kTilt) + b(TwistRow::kTilt)) * far + (a(TwistRow::kError) + b(TwistRow::kError))) * kUp;
+  return ((a(TwistRow::kTilt) + b(TwistRow::kTilt)) * far + (a(TwistRow::kError) + b(TwistRow::kError))) * kUpwards;
 }
 
 using Ints = decltype(Floats{} < Floats{});
@@ -97,7 +97,7 @@ void addTravel(const ScanArrays& s) {
     const OneBody a{{s.rows + s.blocks[2 * i]}};
     const BodiesInRow b{{s.rows + s.blocks[2 * i + 1]}};
     const std::size_t at = i * kTwistLanes;
-    store((load(s.spent + at) + travelOf(a, b)) * kUp, s.spent + at);
+    store((load(s.spent + at) + travelOf(a, b)) * kUpwards, s.spent + at);
   }
 }
 
@@ -115,7 +115,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const std::size_t at = i * kTwistLanes;
     const Floats budget = load(s.budget + at);
     Floats travel = travelOf(a, b);
-    if (add_spent) travel = (travel + load(s.spent + at)) * kUp;
+    if (add_spent) travel = (travel + load(s.spent + at)) * kUpwards;
     // Each of the two subtractions has an error of at most half of kUnit times the budget; there is none without
     // motion.
     const Floats left = (budget - travel) - (travel > zero ? budget * kUnit : zero);
@@ -176,7 +176,7 @@ ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(
 
 void ClearanceTable::setMargin(int pair, double margin, double error) {
   margin_[static_cast<std::size_t>(pair)] = margin;
-  error_[slot(pair)] = static_cast<float>(error) * kUp;
+  error_[slot(pair)] = static_cast<float>(error) * kUpwards;
 }
 
 void ClearanceTable::set(int pair, double clearance) {

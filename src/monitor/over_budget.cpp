@@ -14,8 +14,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kNamed = 3;    // at most so many bodies are named
-constexpr double kRounding = 1.001;  // factor on a share, so that one that is exactly met is not listed
+constexpr std::size_t kNamed = 3;         // at most so many bodies are named
+constexpr double kShareRounding = 1.001;  // factor on a share, so that one that is exactly met is not listed
 
 double ownGap(const Body& body) {
   return body.shell->size() > 0 ? contactGap(body.shell, body.shell) : 0.0;
@@ -46,8 +46,8 @@ std::vector<Reason> reasons(const Scene& scene, const PlannedPair& pair, const E
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   std::vector<Reason> found;
   const double field = budget.field, gap = budget.edge_gap;
-  if (bound.gap > kRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
-  if (bound.field > kRounding * field) {
+  if (bound.gap > kShareRounding * gap) found.push_back(gapReason(scene, pair, bound.gap, gap));
+  if (bound.field > kShareRounding * field) {
     const Body& worse = fieldError(a) > fieldError(b) ? a : b;
     found.push_back(
         {{worse.name, "field"},

@@ -13,7 +13,7 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-constexpr std::size_t kNamed = 4;  // at most so many examples are named per reason
+constexpr std::size_t kNamedPairs = 4;  // at most so many examples are named per reason
 
 /// Number of characters, not bytes, of UTF-8.
 std::size_t width(const std::string& text) {
@@ -51,8 +51,8 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   std::string text;
   for (const auto& [group, names] : groups) {
     text += "  " + counted(names.size(), group.first) + ", " + group.second + ": ";
-    for (std::size_t i = 0; i < std::min(names.size(), kNamed); ++i) text += (i == 0 ? "" : ", ") + names[i];
-    text += names.size() > kNamed ? ", ...\n" : "\n";
+    for (std::size_t i = 0; i < std::min(names.size(), kNamedPairs); ++i) text += (i == 0 ? "" : ", ") + names[i];
+    text += names.size() > kNamedPairs ? ", ...\n" : "\n";
   }
   return text;
 }
