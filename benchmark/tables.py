@@ -12,6 +12,7 @@ import sys
 
 import anytime_tables
 import dynamics_tables
+import map_tables
 import meshes_tables
 import monitor_tables
 import planning_tables
@@ -179,7 +180,7 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           'segments': segments, 'build': build, 'shells': shells, 'drops': drops, 'scaling': scaling,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
-              **meshes_tables.TABLES, **monitor_tables.TABLES,
+              **map_tables.TABLES, **meshes_tables.TABLES, **monitor_tables.TABLES,
               **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES,
               **tunnelling_tables.TABLES, **world_tables.TABLES}.items()}}
 

@@ -331,6 +331,7 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   mine.report.name = description.name;
   if (was_known) countAsShared(mine.report);
   if (needs.triangles) mine.body.triangles = trianglesOf(description, pool);
+  if (mine.body.triangles && !was_known) mine.report.shell_bytes += mine.body.triangles->bytes();
   if (needs.surface) mine.body.surface = surfaceOf(description, pool);
   return mine;
 }

@@ -142,6 +142,12 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
 
 }  // namespace
 
+std::size_t BodyTriangles::bytes() const {
+  std::size_t bytes = tree.bytes() + (closed ? closed->bytes() : 0) + element.size() * sizeof(element[0]);
+  for (const Voxels& of_map : voxels) bytes += of_map.solid->bytes();
+  return bytes;
+}
+
 bool BodyTriangles::isOutside(const Vector3d& p) const {
   std::size_t next = 0;  // of `voxels`
   for (int k = 0; k < elements; ++k) {

@@ -36,6 +36,8 @@ struct BodyTriangles {
   /// body with a mesh that is not closed.
   std::vector<std::shared_ptr<const Solid>> solids;
 
+  std::size_t bytes() const;
+
   const BoxTree& closedTree() const { return closed ? *closed : tree; }
 
   /// Whether a point off the surface is certainly outside all elements. The meshes must be closed, and their signs

@@ -68,11 +68,13 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   // Voxels along z are occupied between one face across z and the next.
   using Face = std::array<int, 3>;  // y, x, z
   std::vector<Face> across_z;
+  std::vector<Square> squares;
+  squares.reserve(mesh.triangles.size());
   for (const Vector3i& triangle : mesh.triangles) {
     Vector3i corners[3];
     for (int k = 0; k < 3; ++k)
       if (!lattice.place(triangle[k], corners[k], solid->moved_)) return nullptr;
-    Square square;
+    Square& square = squares.emplace_back();
     square.low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     square.extent = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) - square.low;
     if (!square.isFace()) return nullptr;
@@ -89,7 +91,12 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
     if (y != other_y || x != other_x) return nullptr;
     for (int z = begin; z < end; ++z) solid->row(y, z)[x / 64] |= std::uint64_t{1} << (x % 64);
   }
-  return double(mesh.triangles.size()) == 2.0 * solid->faces() ? solid : nullptr;
+  const auto isBoundary = [&](const Square& square) {
+    const Vector3i &above = square.low, below = above - (Vector3i::Ones() - square.extent);
+    return solid->isIn(above.x(), above.y(), above.z()) != solid->isIn(below.x(), below.y(), below.z());
+  };
+  const bool are_faces = std::all_of(squares.begin(), squares.end(), isBoundary);
+  return are_faces && double(mesh.triangles.size()) == 2.0 * solid->faces() ? solid : nullptr;
 }
 
 bool VoxelSolid::touches(const Vector3d& p, double slack) const {

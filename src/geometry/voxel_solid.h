@@ -29,6 +29,8 @@ class VoxelSolid {
     return (row(y, z)[x / 64] >> (x % 64) & 1) != 0;
   }
 
+  std::size_t bytes() const { return bits_.size() * sizeof(bits_[0]); }
+
   /// Whether an occupied voxel is within `slack` [m] of a point along each axis; the point in the mesh's frame.
   bool touches(const Vector3d& p, double slack) const;
 

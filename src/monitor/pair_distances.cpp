@@ -115,6 +115,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   found.pair = static_cast<int>(i);
   found.body_a = result.body_a;
   found.body_b = result.body_b;
+  found.is_with_map = !scene_->bodies[result.body_a].map.empty() || !scene_->bodies[result.body_b].map.empty();
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_exact = scene_->bodies[result.body_a].triangles && scene_->bodies[result.body_b].triangles;

@@ -28,9 +28,10 @@ struct CycleRecord {
 struct PairDistance {
   int pair = -1;  ///< in Scene::pairs
   int body_a = -1, body_b = -1;
-  double time = 0.0;      ///< [s] from t₀ of the last cycle; negative for a delayed pair
-  double distance = 0.0;  ///< [m]; 0 if the bodies touch at that time
-  double error = 0.0;     ///< upper bound of the error of `distance` [m]
+  bool is_with_map = false;  ///< one body is a tile of a map
+  double time = 0.0;         ///< [s] from t₀ of the last cycle; negative for a delayed pair
+  double distance = 0.0;     ///< [m]; 0 if the bodies touch at that time
+  double error = 0.0;        ///< upper bound of the error of `distance` [m]
   Vector3d p_A_W = Vector3d::Zero(), p_B_W = Vector3d::Zero();  ///< witness points on A and on B [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from A to B; zero if the bodies touch and it is not known
   double closing_speed = 0.0;            ///< of the witness points along the normal, mean over the last step [m/s]

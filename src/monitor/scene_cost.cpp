@@ -22,6 +22,9 @@ namespace {
 
 constexpr double kSecondsPerPoint = 3.5e-5;  // on one thread; measured on shells of robot links
 constexpr double kBytesPerPoint = 72.0;      // including its share of the sphere tree
+constexpr double kSecondsPerTriangle = 4e-6;
+constexpr double kBytesPerTriangle = 165.0;  // including its share of the box tree
+constexpr double kLeftOfVoxels = 0.36;       // of a map's triangles, when faces are joined to rectangles
 constexpr double kFinestOfSize = 2e-3;       // gap for which a curved primitive is tessellated, relative to its size
 constexpr double kUncertain = 0.35;          // relative standard error; twice this is less than a factor of two
 constexpr double kHopeless = 2.0;            // excess over the limit from which affordableCost() refuses a field
@@ -63,6 +66,8 @@ class CostEstimate {
       if (cost.hint.empty() && !geometry.watertight_voxels) cost.hint = unitHint(mesh.mesh);
       const bool is_new = seen_.insert(&mesh).second;
       if (needs.field && is_new) addField(mesh, cost);
+      const double joined = geometry.watertight_voxels ? kLeftOfVoxels : 1.0;
+      if (needs.triangles && is_new) cost.addTriangles(joined * double(mesh.mesh.triangles.size()));
       const ShellUse use{body.geometry.size() > 1, needs.decides};
       if (needs.shell) cost.addShell(affordable(expectedPoints(mesh.mesh, pool_->shellOptions(mesh, use))));
     }
@@ -144,6 +149,11 @@ void BodyCost::addShell(double points) {
   largest_shell = std::max(largest_shell, points);
   shell_bytes += kBytesPerPoint * points;
   if (!in_cache || field_bytes == 0.0) seconds += kSecondsPerPoint * points;
+}
+
+void BodyCost::addTriangles(double count) {
+  shell_bytes += kBytesPerTriangle * count;
+  seconds += kSecondsPerTriangle * count;
 }
 
 void SceneCost::add(const BodyCost& body) {

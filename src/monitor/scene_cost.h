@@ -19,16 +19,17 @@ struct BodyCost {
   double largest_field = 0.0;  ///< of the fields to be built, one per mesh [bytes]
   double shell_points = 0.0;
   double largest_shell = 0.0;  ///< of the shells, one per element [points]
-  double shell_bytes = 0.0;
+  double shell_bytes = 0.0;    ///< with triangles for verdicts
   double seconds = 0.0;        ///< on the threads of the caller's TBB arena; 0 for cached data
   double field_seconds = 0.0;  ///< the part of `seconds` for fields
   bool uncertain = false;      ///< a field may differ from its estimate by more than a factor of two
   std::string hint;            ///< at a mistake that makes it cost so much, see unitHint(); empty if there is none
   bool in_cache = false;       ///< the fields of all of its meshes are cached
 
-  /// Adds the cost of a field to be built, and of a shell with that many points.
+  /// Adds the cost of a field to be built, of a shell with that many points, and of that many triangles for verdicts.
   void addField(const FieldCost& field);
   void addShell(double points);
+  void addTriangles(double count);
 };
 
 struct SceneCost {

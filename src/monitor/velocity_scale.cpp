@@ -18,19 +18,22 @@ double allowedClosing(const ClosingGap& gap, double age, const StoppingPromise& 
 
 double scaleRange(const StoppingPromise& promise) {
   const double V = promise.max_speed;
-  return promise.stop_distance + V * (promise.max_age + promise.reaction_time + promise.period) +
-         V * V / (2.0 * promise.deceleration);
+  return std::max(promise.stop_distance, promise.map_distance) +
+         V * (promise.max_age + promise.reaction_time + promise.period) + V * V / (2.0 * promise.deceleration);
 }
 
 double velocityScale(const std::vector<PairDistance>& pairs, double age, double oldest,
                      const StoppingPromise& promise) {
   if (!(oldest <= promise.max_age)) return 0.0;
+  StoppingPromise of_map = promise;
+  of_map.stop_distance = std::max(promise.stop_distance, promise.map_distance);
   double allowed = promise.max_speed;
   for (const PairDistance& pair : pairs) {
     const double of_pair = std::max(0.0, age - pair.time);
     if (of_pair > promise.max_age) return 0.0;
-    double of_gap = allowedClosing(pair.any, of_pair, promise);
-    if (pair.slab) of_gap = std::max(of_gap, allowedClosing(*pair.slab, of_pair, promise));
+    const StoppingPromise& kept = pair.is_with_map ? of_map : promise;
+    double of_gap = allowedClosing(pair.any, of_pair, kept);
+    if (pair.slab) of_gap = std::max(of_gap, allowedClosing(*pair.slab, of_pair, kept));
     if (!(of_gap >= 0.0)) return 0.0;  // NaN
     allowed = std::min(allowed, of_gap);
   }

@@ -17,7 +17,9 @@ struct StoppingPromise {
   double reaction_time = 0.1;  ///< R: the robot obeys a scale at most this long after it is published [s]
   double period = 0.1;         ///< P: if no scale comes for this long, the robot acts as on a scale of 0 [s]
   double stop_distance = 0.0;  ///< d: no pair may come closer than this [m]
-  double max_age = 0.2;        ///< older data counts as unknown [s]
+  /// d of pairs with a tile of a map, if that is more [m]: nearer to the robot, its voxels are ignored.
+  double map_distance = 0.0;
+  double max_age = 0.2;  ///< older data counts as unknown [s]
 };
 
 /// The largest closing speed of a gap, from when the robot obeys, at which the gap never becomes narrower than the stop

@@ -1,5 +1,6 @@
 #include "parse_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -17,14 +18,13 @@ TriangleMesh parse(const std::string& bytes, const std::string& format) {
   throw std::runtime_error("a mesh of format \"" + format + "\" is not read; STL, OBJ, OFF, PLY and DAE are");
 }
 
-/// Welds vertices that are equal up to the last digits of a float in a mesh of this size, as corners are that were
-/// printed or computed apart: the first of them stays. Others keep all of their digits, wherever the mesh is.
+/// Welds vertices that are equal up to the last digits of a float in a mesh of this size, and to a micrometre, as
+/// corners are that were printed or computed apart: the first of them stays. Others keep all of their digits.
 TriangleMesh weldedUpToDigits(const TriangleMesh& mesh) {
-  constexpr double kDigits = 0x1p-24;
-  AlignedBox3d box;
-  for (const Vector3d& p : mesh.vertices) box.extend(p);
-  const double step = kDigits * box.sizes().maxCoeff();
-  if (!(step > 0.0 && std::isfinite(step))) return welded(mesh);  // validate() tells what is not finite
+  constexpr double kDigits = 0x1p-24, kMaxStep = 1e-6;  // [m]
+  const AlignedBox3d box = boundingBox(mesh);
+  const double size = box.sizes().maxCoeff(), step = std::min(kDigits * size, kMaxStep);
+  if (!(size > 0.0 && std::isfinite(size))) return welded(mesh);  // validate() tells what is not finite
   TriangleMesh snapped = mesh;
   for (Vector3d& p : snapped.vertices) p = ((p - box.min()) / step).array().round();
   TriangleMesh result = welded(snapped);

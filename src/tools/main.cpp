@@ -23,6 +23,7 @@ int refuse(std::string message) {
 int main(int argc, char** argv) {
   CLI::App app("Signed distance fields of robots and worlds, and queries against them. Lengths are metres.", "sdf_ccd");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "sdf_ccd " SDF_CCD_VERSION);
   std::string footer = "Exit code: 0 done, 1 partly done (the rest is named on stderr), 2 bad input.";
   sdf_ccd::tools::addBuildCommand(app);
   sdf_ccd::tools::addInfoCommand(app);

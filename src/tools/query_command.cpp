@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -108,6 +109,9 @@ void run(const Arguments& arguments) {
         "--impact always uses the surface and the first contact; it cannot be combined with --sigma or --first");
   }
   const std::vector<Segment> segments = readSegments(arguments.segments);
+  std::error_code is_missing;
+  if (std::filesystem::equivalent(arguments.out, arguments.segments, is_missing))
+    throw std::invalid_argument("--out and --segments are the same file");
   if (!arguments.field.empty()) arguments.resolution.requireNone("--field names a field that exists already");
   OutputFile out(arguments.out);
   const DistanceField field = fieldOf(arguments);

@@ -71,6 +71,16 @@ TEST(VoxelRectangles, ABlockHasSix) {
   EXPECT_EQ(boundaryRectangles(*VoxelSolid::of(surfaceOf(cells))).triangles.size(), 12u);
 }
 
+TEST(VoxelSolid, FacesOfTwoVoxelsThatAreNotThoseOfOneAreNone) {
+  // As many as of one voxel: below and above of one, and the sides of another.
+  VoxelSurface surface(kSize, 0);
+  for (const bool upper : {false, true}) {
+    surface.addFace({0, 0, 0}, 2, upper);
+    for (const int axis : {0, 1}) surface.addFace({5, 0, 0}, axis, upper);
+  }
+  EXPECT_FALSE(VoxelSolid::of(surface.take()));
+}
+
 TEST(VoxelSolid, TouchesWhatIsWithinTheSlack) {
   const auto voxels = VoxelSolid::of(surfaceOf({{{2, 0, 0}, true}, {{4, 0, 0}, true}}));
   EXPECT_TRUE(voxels->touches({1.25, 0.25, 0.25}, 0.0));

@@ -191,7 +191,7 @@ TEST(MaxError, WhatTheCacheHasIsNotSampled) {
   ASSERT_EQ(cost.bodies.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_TRUE(cost.bodies[i].in_cache);
-    EXPECT_EQ(cost.bodies[i].seconds, 0.0);
+    EXPECT_LT(cost.bodies[i].seconds, 0.01) << "for triangles, which are not cached";
     EXPECT_FALSE(cost.meshes->find(description.bodies[i].geometry[0]).made.solid);  // only a sample of cells needs it
   }
   std::filesystem::remove_all(options.cache_directory);

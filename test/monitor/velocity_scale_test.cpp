@@ -144,6 +144,17 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
 }
 
+TEST(VelocityScale, WhatIsIgnoredInAMapIsNotApproached) {
+  StoppingPromise promise;
+  promise.map_distance = 0.45;
+  PairDistance pair;
+  pair.any = {0.5, 0.0, 0.01};
+  EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
+  pair.is_with_map = true;
+  EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
+  EXPECT_NEAR(scaleRange(promise), 0.45 + scaleRange(StoppingPromise()), 1e-12);
+}
+
 /// Exact distance of two meshes at their poses, over all pairs of triangles.
 double trueDistance(const TriangleMesh& a, const Isometry3d& X_WA, const TriangleMesh& b, const Isometry3d& X_WB) {
   const auto placed = [](const TriangleMesh& mesh, const Isometry3d& X) {

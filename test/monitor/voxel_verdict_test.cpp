@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "monitor/scene_case.h"
+#include "monitor/scene_cost.h"
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
 
@@ -81,6 +82,30 @@ TEST(VoxelVerdict, ABallAmongRandomVoxelsToATenthOfAMillimetre) {
   }
   EXPECT_GT(clear, 100);
   EXPECT_GT(contact, 100);
+}
+
+TEST(VoxelVerdict, TrianglesAreCountedAndExpected) {
+  Voxels hills;
+  for (int x = 0; x < 60; ++x)
+    for (int y = 0; y < 60; ++y)
+      for (int z = 0; z < 4 + int(3.0 * std::sin(0.3 * x) * std::cos(0.2 * y)); ++z) hills.insert({x, y, z});
+  VoxelMapOptions options;
+  VoxelMap map("map", "world", options);
+  SceneDescription description{map.take(gridOf(hills, options), {}).made, {}};
+  double faces = 0.0;
+  for (BodyDescription& tile : description.bodies) {
+    tile.geometry[0].field.reset();  // to be built here, like that of a map from a file
+    faces += double(std::get<std::shared_ptr<const TriangleMesh>>(tile.geometry[0].shape)->triangles.size());
+  }
+  description.bodies.push_back(body("ball", Primitive(Sphere{0.05})));
+  ScenePlan plan = planScene(description);
+  const SceneCost expected = expectedCost(description, plan, fine());
+  double bytes = 0.0;
+  for (const BodyReport& report : buildScene(description, plan, fine()).reports)
+    bytes += double(report.field_bytes + report.shell_bytes);
+  EXPECT_GT(bytes, 10.0 * faces);
+  EXPECT_LT(expected.bytes, 2.0 * bytes);
+  EXPECT_GT(expected.bytes, 0.5 * bytes);
 }
 
 TEST(VoxelVerdict, ABallInsideABlockTouchesNoFace) {

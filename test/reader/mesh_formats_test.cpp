@@ -87,6 +87,15 @@ TEST(MeshFormats, CoordinatesKeepAllDigitsFarFromTheOrigin) {
   }
 }
 
+TEST(MeshFormats, WhatIsFarAwayFlattensNothing) {
+  const std::string plate =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 0.002\nv 1 0 0.002\nv 1 1 0.002\nv 0 1 0.002\n"
+      "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  EXPECT_EQ(parseMeshUnconfined(plate + "v 1e9 0 0\n", "obj").vertices.size(), 8u) << "a vertex of no face";
+  const std::string far = "v 1e5 0 0\nv 1e5 1 0\nv 1e5 0 1\nf 9 10 11\n";
+  EXPECT_EQ(parseMeshUnconfined(plate + far, "obj").vertices.size(), 11u);
+}
+
 TEST(MeshFormats, PlyStrips) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\n"

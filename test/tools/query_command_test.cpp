@@ -153,6 +153,7 @@ TEST_F(QueryCommand, RefusesDamagedFields) {
     expectRefused("query --field " + std::string(field) + " --segments in.csv --out out.csv", field);
   }
   expectRefused("info short.field", "short.field");
+  expectRefused("query --field made/ball.field --segments in.csv --out ./in.csv", "the same file");
   expectRefused("query --field made/ball.field --segments in.csv --out out.csv --sigma 9", "band");
   expectRefused("query --field made/ball.field --segments in.csv --out out.csv --sigma nan", "sigma");
 }

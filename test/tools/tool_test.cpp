@@ -20,6 +20,12 @@ using test::ToolRun;
 using Tool = test::ToolWithBall;
 namespace fs = std::filesystem;
 
+TEST_F(Tool, VersionIsThatOfThePackage) {
+  const std::string package = readText(std::string(SDF_CCD_SOURCE_DIR) + "/package.xml"), tag = "<version>";
+  const std::size_t begin = package.find(tag) + tag.size();
+  EXPECT_EQ(run("--version").out, "sdf_ccd " + package.substr(begin, package.find('<', begin) - begin) + "\n");
+}
+
 TEST_F(Tool, HelpIsEverywhere) {
   for (const char* arguments :
        {"--help", "build --help", "info --help", "query --help", "simulate --help", "work-precision --help"}) {

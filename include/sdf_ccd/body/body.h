@@ -91,7 +91,7 @@ struct BodyReport {
   std::size_t cells = 0;        ///< stored cells
   double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
-  std::size_t shell_bytes = 0;
+  std::size_t shell_bytes = 0;  ///< with the triangles that decide verdicts
   std::size_t witnesses = 0;  ///< Body::witnesses
   double gap = 0.0;           ///< between its shell's points, for a pair of equal shells [m]
   std::size_t pairs = 0;

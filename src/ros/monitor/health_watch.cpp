@@ -6,7 +6,6 @@
 
 #include "common/number_text.h"
 #include "monitor/over_budget.h"
-#include "monitor/voxel_mask.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
 
@@ -40,12 +39,6 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
   for (const std::string& warning : scene.warnings) warn(warning);
   const std::string over = overBudget(scene);
   if (!over.empty()) warn(over);
-  const double hidden = std::max(parameters.live_map.padding, maskError(scene));
-  const std::optional<StoppingPromise>& promise = parameters.proximity.promise;
-  if (promise && !parameters.live_map.topic.empty() && promise->stop_distance <= hidden) {
-    warn("velocity_scale: the robot may touch the live map, because voxels closer to it than " + numberText(hidden) +
-         " m (octomap/padding, or twice the error of the robot's fields) are ignored: set stop_distance to more");
-  }
   health_.wanted_rate = parameters.rate;
   health_.is_timed = parameters.trigger.kind == TriggerKind::kTimer;
   health_.max_error = parameters.scene.max_error.value_or(0.0);

@@ -6,6 +6,7 @@
 #include <std_msgs/Float64.h>
 
 #include "monitor/velocity_scale.h"
+#include "monitor/voxel_mask.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf/seconds_between.h"
 
@@ -31,7 +32,13 @@ double ProximityOutputs::range() const {
 }
 
 boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, MonitorState& state) {
-  const double wanted = range();
+  std::optional<StoppingPromise> promise;
+  if (scalesVelocity()) {
+    constexpr double kBeyond = 1.01;  // what is as near as that is ignored
+    promise = parameters_.promise;
+    promise->map_distance = kBeyond * std::max(promise->map_distance, maskError(loop.scene()));
+  }
+  const double wanted = std::max(range(), promise ? scaleRange(*promise) : 0.0);
   state.proximity = MonitorState::NOT_WATCHED;
   if (!(wanted > 0.0)) {
     loop.forgetDistances();
@@ -40,12 +47,12 @@ boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, Mo
   const std::vector<PairDistance>& near = loop.measureDistances(wanted);
   const CycleResult& result = loop.result();
   const bool is_known = result.not_checked == 0 && result.verdict != Verdict::kUncertain && !loop.hasUnknownDistance();
-  if (scalesVelocity()) {
+  if (promise) {
     const ros::Time now = ros::Time::now();  // measuring takes time, too
     const double age = secondsBetween(loop.cycle().origin, now),
                  oldest = secondsBetween(loop.cycle().complete_until, now);
     const bool is_safe = is_known && result.verdict != Verdict::kContact;
-    publishScale(is_safe ? velocityScale(near, age, oldest, *parameters_.promise) : 0.0);
+    publishScale(is_safe ? velocityScale(near, age, oldest, *promise) : 0.0);
   }
   double nearest = is_known && result.verdict != Verdict::kContact ? std::numeric_limits<double>::infinity() : 0.0;
   for (const PairDistance& pair : near) nearest = std::min(nearest, pair.any.width);

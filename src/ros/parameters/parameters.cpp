@@ -199,6 +199,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.trigger = readTrigger(reader, parameters);
 
   parameters.proximity = readProximity(reader);
+  if (parameters.proximity.promise) parameters.proximity.promise->map_distance = parameters.live_map.padding;
   parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.refine = static_cast<Refinement>(reader.choice("refine", {"none", "deepest"}, 0));
   parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
