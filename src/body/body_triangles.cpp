@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMaxTriangles = 500'000;
 constexpr std::size_t kMaxOfVoxels = 4 * kMaxTriangles;       // of which a third is left when faces are joined
-constexpr std::uint64_t kMaxVoxels = std::uint64_t{1} << 31;  // in the box around the occupied ones: 256 MB
+constexpr std::size_t kMaxVoxelBytes = std::size_t{1} << 28;  // of the box around the occupied ones, a bit each
 
 /// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
 /// which would need more than 3,500 sides.
@@ -94,7 +94,6 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   double deviation = 0.0;
   std::vector<BodyTriangles::Voxels> voxels;
   for (const GeometryDescription& geometry : description.geometry) {
-    if (isHalfSpace(geometry)) return nullptr;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (const auto* ball = std::get_if<Sphere>(primitive)) {
         all.add(*ball, geometry.X_BG);
@@ -104,16 +103,16 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
         if (cylinder) deviation = std::max(deviation, fine);
         all.add(tessellate(*primitive, fine), geometry.X_BG);
       }
-    } else if (const TriangleMesh& mesh = pool.find(geometry).mesh; geometry.watertight_voxels) {
-      const std::shared_ptr<const VoxelSolid> solid = VoxelSolid::of(mesh, kMaxVoxels);
-      if (!solid) return nullptr;
+    } else if (PooledMesh& pooled = pool.find(geometry); geometry.watertight_voxels) {
+      const std::shared_ptr<const VoxelSolid>& solid = SolidSource(pooled.mesh, pooled.made).voxels();
+      if (!solid || solid->bytes() > kMaxVoxelBytes) return nullptr;
       deviation = std::max(deviation, solid->moved());
       all.addTriangles(boundaryRectangles(*solid), geometry.X_BG);
-      all.addComponents(mesh, geometry.X_BG);
+      all.addComponents(pooled.mesh, geometry.X_BG);
       const int element = all.elements.empty() ? 0 : all.elements.back() + 1;
       voxels.push_back({element, geometry.X_BG.inverse(), solid});
     } else {
-      all.add(mesh, geometry.X_BG);
+      all.add(pooled.mesh, geometry.X_BG);
     }
     all.endElement();
     if (voxels.empty() && all.triangles.size() > kMaxTriangles) return nullptr;

@@ -24,10 +24,9 @@ const Solid& SolidSource::solid() const {
   return *made_->solid;
 }
 
-const VoxelSolid* SolidSource::voxels() const {
-  if (!made_->may_be_voxels) return nullptr;
-  if (!made_->voxels) made_->voxels = VoxelSolid::of(mesh_);
-  return made_->voxels->get();
+const std::shared_ptr<const VoxelSolid>& SolidSource::voxels() const {
+  if (!made_->voxels) made_->voxels = made_->may_be_voxels ? VoxelSolid::of(mesh_) : nullptr;
+  return *made_->voxels;
 }
 
 const ClosedSolid& SolidSource::closed() const {

@@ -46,7 +46,7 @@ class SolidSource {
   const TriangleMesh& mesh() const { return mesh_; }
   const Solid& solid() const;
   const ClosedSolid& closed() const;
-  const VoxelSolid* voxels() const;  ///< null if the mesh is not the boundary of voxels
+  const std::shared_ptr<const VoxelSolid>& voxels() const;  ///< null if the mesh is not the boundary of voxels
 
  private:
   const TriangleMesh& mesh_;
