@@ -6,7 +6,6 @@
 #include <std_msgs/Float64.h>
 
 #include "monitor/velocity_scale.h"
-#include "monitor/voxel_mask.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf/seconds_between.h"
 
@@ -36,7 +35,7 @@ boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, Mo
   if (scalesVelocity()) {
     constexpr double kBeyond = 1.01;  // what is as near as that is ignored
     promise = parameters_.promise;
-    promise->map_distance = kBeyond * std::max(promise->map_distance, maskError(loop.scene()));
+    promise->map_distance = kBeyond * std::max(promise->map_distance, loop.world()->mask_error);
   }
   const double wanted = std::max(range(), promise ? scaleRange(*promise) : 0.0);
   state.proximity = MonitorState::NOT_WATCHED;

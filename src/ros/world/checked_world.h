@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "monitor/voxel_mask.h"
 #include "robot/unreachable_pairs.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/world.h"
@@ -17,6 +18,7 @@ struct CheckedWorld {
   std::vector<UnreachablePair> unreachable;         ///< left out as long as tf agrees with the URDF
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::vector<TrackedBody> bodies;
+  double mask_error;  ///< maskError()
 
   /// @param left_out  also pairs that rules of the user allow to touch.
   CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
@@ -24,7 +26,8 @@ struct CheckedWorld {
       : snapshot(std::move(of_snapshot)),
         unreachable(withoutAllowed(std::move(left_out), *snapshot->description)),
         attached_since(std::move(of_attached)),
-        bodies(trackedBodies(*snapshot->scene)) {}
+        bodies(trackedBodies(*snapshot->scene)),
+        mask_error(maskError(*snapshot->scene)) {}
 
   std::uint64_t version() const { return snapshot->version; }
   const Scene& scene() const { return *snapshot->scene; }
