@@ -8,14 +8,13 @@
 #include <random>
 
 #include <fcl/geometry/octree/octree.h>
-#include <fcl/narrowphase/collision.h>
 #include <octomap/OcTree.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
 #include "common/seconds_since.h"
-#include "fcl_model.h"
 #include "monitor/cycle_times.h"
+#include "monitor/fcl_scene.h"
 #include "monitor/robot_motion.h"
 #include "monitor/sdf_ccd_monitor.h"
 #include "motion/screw_motion.h"
@@ -92,35 +91,16 @@ SceneDescription sceneOf(const Robot& robot, const Map& map) {
 class FclLinks {
  public:
   FclLinks(const std::vector<BodyDescription>& links, const std::shared_ptr<const octomap::OcTree>& tree)
-      : tree_(std::make_shared<fcl::OcTreed>(tree)) {
-    for (const BodyDescription& link : links) {
-      auto& parts = links_.emplace_back();
-      for (const GeometryDescription& geometry : link.geometry) {
-        const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
-        const std::shared_ptr<FclModel> model =
-            fclModel(mesh ? **mesh : tessellate(std::get<Primitive>(geometry.shape), 1e-4));
-        parts.push_back({geometry.X_BG, std::make_unique<fcl::CollisionObjectd>(model)});
-      }
-    }
-  }
+      : scene_(links), tree_(scene_.add(std::make_shared<fcl::OcTreed>(tree))) {}
 
   bool touches(std::size_t link, const Isometry3d& X_WB) {
-    for (Part& part : links_[link]) {
-      part.object->setTransform(X_WB * part.X_BG);
-      part.object->computeAABB();
-      fcl::CollisionResultd result;
-      if (fcl::collide(part.object.get(), &tree_, fcl::CollisionRequestd(), result) > 0) return true;
-    }
-    return false;
+    scene_.move(static_cast<int>(link), X_WB);
+    return scene_.collide(static_cast<int>(link), tree_);
   }
 
  private:
-  struct Part {
-    Isometry3d X_BG;
-    std::unique_ptr<fcl::CollisionObjectd> object;
-  };
-  std::vector<std::vector<Part>> links_;
-  fcl::CollisionObjectd tree_;
+  FclScene scene_;
+  int tree_;
 };
 
 /// Poses of all bodies along motions that begin near something occupied without touching it, one motion per place.

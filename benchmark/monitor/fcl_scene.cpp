@@ -40,6 +40,14 @@ int FclScene::add(const BodyDescription& description) {
   return static_cast<int>(bodies_.size()) - 1;
 }
 
+int FclScene::add(const std::shared_ptr<fcl::CollisionGeometryd>& geometry) {
+  bodies_.emplace_back().elements.push_back(
+      {Isometry3d::Identity(), std::make_unique<fcl::CollisionObjectd>(geometry)});
+  const int index = static_cast<int>(bodies_.size()) - 1;
+  move(index, Isometry3d::Identity());
+  return index;
+}
+
 void FclScene::move(int index, const Isometry3d& X_WB) {
   FclBody& body = bodies_[index];
   body.box_W = fcl::AABBd();

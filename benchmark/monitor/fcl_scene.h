@@ -18,6 +18,9 @@ class FclScene {
   /// Adds a body. @return its index.
   int add(const BodyDescription& body);
 
+  /// Adds a body of one geometry, such as an octree, at the world's origin. @return its index.
+  int add(const std::shared_ptr<fcl::CollisionGeometryd>& geometry);
+
   /// Moves a body. @param X_WB  pose of its frame B.
   void move(int body, const Isometry3d& X_WB);
 
