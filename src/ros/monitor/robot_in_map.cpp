@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "ros/tf/seconds_between.h"
+#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 
