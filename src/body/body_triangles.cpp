@@ -139,6 +139,12 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   return made;
 }
 
+/// Of a point in the body's frame from the faces of voxels, by which it may be on either side [m].
+double slackOf(const BodyTriangles::Voxels& voxels, const Vector3d& p) {
+  const VoxelSolid& solid = *voxels.solid;
+  return solid.moved() + 1e-14 * (p.norm() + solid.box().max().norm() + solid.origin().norm());
+}
+
 }  // namespace
 
 std::size_t BodyTriangles::bytes() const {
@@ -147,20 +153,36 @@ std::size_t BodyTriangles::bytes() const {
   return bytes;
 }
 
+const BodyTriangles::Voxels* BodyTriangles::voxelsOf(int element_index) const {
+  const auto of =
+      std::find_if(voxels.begin(), voxels.end(), [&](const Voxels& v) { return v.element == element_index; });
+  return of == voxels.end() ? nullptr : &*of;
+}
+
+std::optional<int> BodyTriangles::windingNumberOf(int k, const Vector3d& p) const {
+  return windingNumber(tree, p, [&](int i) { return elements == 1 || element[static_cast<std::size_t>(i)] == k; });
+}
+
 bool BodyTriangles::isOutside(const Vector3d& p) const {
-  std::size_t next = 0;  // of `voxels`
   for (int k = 0; k < elements; ++k) {
-    if (next < voxels.size() && voxels[next].element == k) {
-      const Voxels& of_map = voxels[next++];
-      const double rounding = 1e-14 * (p.norm() + of_map.solid->box().max().norm() + of_map.solid->origin().norm());
-      if (of_map.solid->touches(of_map.X_GB * p, of_map.solid->moved() + rounding)) return false;
-      continue;
+    if (const Voxels* const of_map = voxelsOf(k)) {
+      if (of_map->solid->touches(of_map->X_GB * p, slackOf(*of_map, p))) return false;
+    } else if (windingNumberOf(k, p) != 0) {
+      return false;
     }
-    const auto belongs = [this, k](int i) { return elements == 1 || element[static_cast<std::size_t>(i)] == k; };
-    const std::optional<int> winding = windingNumber(tree, p, belongs);
-    if (!winding || *winding != 0) return false;
   }
   return true;
+}
+
+bool BodyTriangles::isInside(const Vector3d& p) const {
+  for (int k = 0; k < elements; ++k) {
+    if (const Voxels* const of_map = voxelsOf(k)) {
+      if (of_map->solid->contains(of_map->X_GB * p, slackOf(*of_map, p))) return true;
+    } else if (!closed && windingNumberOf(k, p).value_or(0) != 0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool mayHaveTriangles(const BodyDescription& description) {

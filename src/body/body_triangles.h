@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "body/mesh_pool.h"
@@ -43,6 +44,14 @@ struct BodyTriangles {
   /// Whether a point off the surface is certainly outside all elements. The meshes must be closed, and their signs
   /// trusted (MeshQuality::sign_trusted).
   bool isOutside(const Vector3d& p) const;
+
+  /// Whether a point off the surface is certainly inside an element. The signs of the meshes must be trusted, and none
+  /// may take cavities for solid.
+  bool isInside(const Vector3d& p) const;
+
+ private:
+  const Voxels* voxelsOf(int element) const;
+  std::optional<int> windingNumberOf(int element, const Vector3d& p) const;
 };
 
 /// Whether trianglesOf() gives any: not if the body has half-spaces, more than half a million triangles, or voxels with

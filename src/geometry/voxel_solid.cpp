@@ -99,17 +99,28 @@ std::shared_ptr<const VoxelSolid> VoxelSolid::of(const TriangleMesh& mesh, std::
   return are_faces && double(mesh.triangles.size()) == 2.0 * solid->faces() ? solid : nullptr;
 }
 
-bool VoxelSolid::touches(const Vector3d& p, double slack) const {
-  const AlignedBox3d within = box();
-  const Vector3d around = Vector3d::Constant(slack), nearest = p.cwiseMax(within.min()).cwiseMin(within.max());
-  if (!((p - nearest).lpNorm<Eigen::Infinity>() <= slack)) return false;
-  const Vector3i low = ((nearest - around - origin_) / size_).array().floor().cast<int>();
-  const Vector3i high = ((nearest + around - origin_) / size_).array().floor().cast<int>();
+template <typename Test>
+bool VoxelSolid::anyVoxelAround(const Vector3d& p, double slack, const Test& test) const {
+  const Vector3d around = Vector3d::Constant(slack);
+  const Vector3i low = ((p - around - origin_) / size_).array().floor().cast<int>();
+  const Vector3i high = ((p + around - origin_) / size_).array().floor().cast<int>();
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)
       for (int x = low.x(); x <= high.x(); ++x)
-        if (isIn(x, y, z)) return true;
+        if (test(x, y, z)) return true;
   return false;
+}
+
+bool VoxelSolid::touches(const Vector3d& p, double slack) const {
+  const AlignedBox3d within = box();
+  const Vector3d nearest = p.cwiseMax(within.min()).cwiseMin(within.max());
+  if (!((p - nearest).lpNorm<Eigen::Infinity>() <= slack)) return false;
+  return anyVoxelAround(nearest, slack, [this](int x, int y, int z) { return isIn(x, y, z); });
+}
+
+bool VoxelSolid::contains(const Vector3d& p, double slack) const {
+  if (!box().contains(p)) return false;
+  return !anyVoxelAround(p, slack, [this](int x, int y, int z) { return !isIn(x, y, z); });
 }
 
 void VoxelSolid::runs(int y, int z, std::vector<Run>& found) const {

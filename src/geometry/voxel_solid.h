@@ -34,6 +34,9 @@ class VoxelSolid {
   /// Whether an occupied voxel is within `slack` [m] of a point along each axis; the point in the mesh's frame.
   bool touches(const Vector3d& p, double slack) const;
 
+  /// Whether all voxels within `slack` [m] of a point along each axis are occupied; the point in the mesh's frame.
+  bool contains(const Vector3d& p, double slack) const;
+
   /// Occupied voxels [begin, end) along a row. runs() lists them in order; none for rows outside the box.
   struct Run {
     int begin, end;
@@ -48,6 +51,8 @@ class VoxelSolid {
   }
   std::uint64_t* row(int y, int z) { return const_cast<std::uint64_t*>(std::as_const(*this).row(y, z)); }
   double faces() const;
+  template <typename Test>  // gets the indices of a voxel; ends if it returns true
+  bool anyVoxelAround(const Vector3d& p, double slack, const Test& test) const;
 
   double size_ = 0.0;
   double moved_ = 0.0;

@@ -241,17 +241,22 @@ void PairChecker::setClear(double clearance, PairResult& result) {
   result.clearance = clearance - motion_error_;
 }
 
-/// Sets a contact of which only a crossing of the surfaces is known.
+/// Sets a contact of which only a crossing of the surfaces is known, or that one body is inside the other.
 void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) {
   forgetClearance();
   result.verdict = Verdict::kContact;
-  result.intervals.push_back({crossing.time, crossing.time});
+  result.intervals.push_back({crossing.enter, crossing.exit});
   result.deepest = crossing;
 }
 
 /// Adds a known crossing of the surfaces to the contacts that points feel, and what lasts besides without being felt.
 void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
   std::vector<Interval>& intervals = result.intervals;
+  if (crossing.enter < crossing.exit) {  // one body is inside the other all the time
+    intervals.assign(1, {crossing.enter, crossing.exit});
+    setTimes(intervals, result.deepest);
+    for (ContactPoint& peak : result.peaks) setTimes(intervals, peak);
+  }
   const std::size_t felt = intervals.size();
   setTimes(intervals, crossing);
   if (felt == 0) result.deepest = crossing;
@@ -316,7 +321,10 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
     outside_ = outside_ || surfaces_->isOutside(surfaces_->motion().end());
-    if (!outside_) return false;
+    if (!outside_) {
+      answer.crossing = surfaces_->containedPoint();
+      return false;
+    }
   }
   setClear(clearance, result);
   return true;

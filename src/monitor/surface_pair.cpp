@@ -30,12 +30,22 @@ bool isOutsideSolid(const Body& body, const Vector3d& p) {
 }
 
 /// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.
-bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI) {
+/// @param inside  set to a point of `inner` that is certainly inside `outer`, if one is found; frame O.
+bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI,
+                          std::optional<Vector3d>& inside) {
+  const auto is_outside = [&](const std::vector<Vector3d>& corners) {
+    for (const Vector3d& p_I : corners) {
+      const Vector3d p = X_OI * p_I;
+      if (isOutsideSolid(outer, p)) return true;
+      if (!outer.inside_is_doubtful && outer.triangles->isInside(p)) {
+        inside = p;
+        return false;
+      }
+    }
+    return false;
+  };
   const auto& components = inner.triangles->components;
-  return std::all_of(components.begin(), components.end(), [&](const std::vector<Vector3d>& corners) {
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](const Vector3d& p) { return isOutsideSolid(outer, X_OI * p); });
-  });
+  return std::all_of(components.begin(), components.end(), is_outside);
 }
 
 /// Options to look closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer
@@ -199,8 +209,26 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   return touch;
 }
 
-bool SurfacePair::isOutside(const Isometry3d& X_FP) const {
-  return componentsAreOutside(*shell_, *field_, X_FP) && componentsAreOutside(*field_, *shell_, X_FP.inverse());
+SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const {
+  std::optional<Vector3d> p_F, p_P;
+  const bool excluded =
+      componentsAreOutside(*shell_, *field_, X_FP, p_F) && componentsAreOutside(*field_, *shell_, X_FP.inverse(), p_P);
+  if (p_P) p_F = X_FP * *p_P;
+  return {excluded, p_F};
+}
+
+std::optional<ContactPoint> SurfacePair::containedPoint() const {
+  const std::optional<Vector3d> p_F = containment(motion_.end()).p_F;
+  if (!p_F) return std::nullopt;
+  const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
+  const Isometry3d X_WF = last.X_WF.pose(1.0);
+  const Vector3d way = last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center;
+  ContactPoint contact;
+  contact.enter = motion_.motion(0).t_start;
+  contact.time = contact.exit = last.t_end;
+  contact.p_W = X_WF * *p_F;
+  contact.normal_W = (f_is_a_ ? 1.0 : -1.0) * (way.norm() > 0.0 ? way.normalized() : Vector3d::UnitZ());
+  return contact;
 }
 
 }  // namespace sdf_ccd

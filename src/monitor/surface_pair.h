@@ -67,7 +67,11 @@ class SurfacePair {
 
   /// Whether neither body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are
   /// apart. False also if that is not known.
-  bool isOutside(const Isometry3d& X_FP) const;
+  bool isOutside(const Isometry3d& X_FP) const { return containment(X_FP).excluded; }
+
+  /// A point at which one body is certainly inside the other, at the motion's end. The surfaces must be apart during
+  /// the whole motion: so one is inside all the time. Empty if that is not known.
+  std::optional<ContactPoint> containedPoint() const;
 
   /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
   /// (they are apart, and seen from the outside) or CONTACT (they cross).
@@ -75,6 +79,12 @@ class SurfacePair {
   bool isInsideDoubtful() const { return field_->inside_is_doubtful || shell_->inside_is_doubtful; }
 
  private:
+  struct Containment {
+    bool excluded;                ///< see isOutside()
+    std::optional<Vector3d> p_F;  ///< certainly inside both bodies, or on the surface of one
+  };
+  Containment containment(const Isometry3d& X_FP) const;
+
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);

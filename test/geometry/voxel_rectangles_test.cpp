@@ -92,5 +92,15 @@ TEST(VoxelSolid, TouchesWhatIsWithinTheSlack) {
   EXPECT_FALSE(voxels->touches({std::nan(""), 0.25, 0.25}, 0.1));
 }
 
+TEST(VoxelSolid, ContainsWhatHasNoEmptyVoxelWithinTheSlack) {
+  const auto voxels = VoxelSolid::of(surfaceOf({{{2, 0, 0}, true}, {{3, 0, 0}, true}}));
+  EXPECT_TRUE(voxels->contains({1.25, 0.25, 0.25}, 0.24));
+  EXPECT_FALSE(voxels->contains({1.25, 0.25, 0.25}, 0.26));
+  EXPECT_TRUE(voxels->contains({1.5, 0.25, 0.25}, 0.1)) << "between the two";
+  EXPECT_FALSE(voxels->contains({0.9, 0.25, 0.25}, 0.0));
+  EXPECT_FALSE(voxels->contains({1e300, 0.25, 0.25}, 0.1));
+  EXPECT_FALSE(voxels->contains({std::nan(""), 0.25, 0.25}, 0.1));
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -268,6 +268,33 @@ TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
   EXPECT_EQ(at(in_part, translation({0.25, 0, 0})).verdict, Verdict::kClear);
 }
 
+/// Inside is known by the surfaces also where fields are too coarse to tell, and for the whole cycle; with contacts or
+/// without.
+TEST(SurfacePair, WhatIsInsideByLessThanTheFieldsErrorIsAContact) {
+  BodyOptions options = coarse();
+  options.field.cells = 4;
+  const TriangleMesh wall = boxMesh({1.0, 1.0, 0.004});
+  BodyDescription shelf = body("shelf", meshShape(wall));
+  shelf.geometry.push_back({meshShape(wall), translation({0, 0, 1}), "upper"});
+  const auto scene = build({shelf, body("bead", meshShape(boxMesh({0.001, 0.001, 0.001})))}, options);
+  for (const bool wants_contacts : {false, true}) {
+    CycleRequest request;
+    request.contacts = request.wrenches = wants_contacts;
+    for (const double z : {0.0, 0.0029, 0.998}) {
+      Monitor monitor(scene, soft());
+      const auto still_shelf = still(translation({0, 2, 0}));
+      const std::vector<Isometry3d> bead = {translation({0.1, 2, z}), translation({0.2, 2.1, z})};
+      const PairResult result = monitor.run(cycle(0.1, {still_shelf, bead}), request).pairs.front();
+      ASSERT_EQ(result.verdict, Verdict::kContact) << z;
+      ASSERT_EQ(result.intervals.size(), 1u);
+      EXPECT_EQ(result.intervals[0].enter, 0.0);
+      EXPECT_EQ(result.intervals[0].exit, 0.1);
+      const double then = 0.1 + result.deepest.time;  // the bead's x
+      EXPECT_LE((result.deepest.p_W - Vector3d(then, then + 1.9, z)).cwiseAbs().maxCoeff(), 0.0011) << "in the bead";
+    }
+  }
+}
+
 /// A bead that enters a solid through its surface within one cycle is in contact, and stays so.
 TEST(SurfacePair, WhatGoesInStaysIn) {
   const auto scene =

@@ -44,12 +44,14 @@ struct BallInMap {
     monitor = std::make_unique<Monitor>(scene, MonitorOptions());
   }
 
-  const CycleResult& move(const Vector3d& start, const Vector3d& end) {
+  const CycleResult& move(const Vector3d& start, const Vector3d& end, bool wants_contacts = false) {
     CycleMotion motion;
     motion.times = {0.0, 0.1};
     motion.X_WB.assign(scene->bodies.size(), still(Isometry3d::Identity()));
     motion.X_WB[0] = {translation(start), translation(end)};
-    return monitor->run(motion, {});
+    CycleRequest request;
+    request.contacts = request.wrenches = wants_contacts;
+    return monitor->run(motion, request);
   }
 
   std::shared_ptr<const Scene> scene;
@@ -128,6 +130,25 @@ TEST(VoxelVerdict, AVoxelInsideALinkTouchesNoFace) {
   EXPECT_EQ(ball.move({4.1 * kSize, 0.5 * kSize, 0.5 * kSize}, {4.1 * kSize, 0.5 * kSize, 0.5 * kSize}).verdict,
             Verdict::kClear);
   EXPECT_EQ(ball.move(beside, beside).verdict, Verdict::kContact);
+}
+
+// The field of a tile is half a voxel in doubt: that the ball lies inside is known without it.
+TEST(VoxelVerdict, ABallInsideASingleVoxelIsContactAllTheTime) {
+  BallInMap ball({{0, 0, 0}}, 0.05 * kSize);
+  for (const double x : {0.1, 0.3, 0.5, 0.94})
+    for (const bool wants_contacts : {false, true})
+      for (const bool moves : {false, true}) {
+        const Vector3d start(x * kSize, 0.3 * kSize, 0.5 * kSize);
+        const Vector3d end = moves ? Vector3d(x * kSize, 0.6 * kSize, 0.4 * kSize) : start;
+        const CycleResult& result = ball.move(start, end, wants_contacts);
+        ASSERT_EQ(result.verdict, Verdict::kContact) << x << " " << wants_contacts << " " << moves;
+        const auto in_contact = [](const PairResult& each) { return each.verdict == Verdict::kContact; };
+        const PairResult& pair = *std::find_if(result.pairs.begin(), result.pairs.end(), in_contact);
+        ASSERT_EQ(pair.intervals.size(), 1U);
+        EXPECT_EQ(pair.intervals[0].enter, 0.0);
+        EXPECT_EQ(pair.intervals[0].exit, 0.1);
+        EXPECT_LE(AlignedBox3d(Vector3d::Zero(), Vector3d::Constant(kSize)).exteriorDistance(pair.deepest.p_W), 1e-12);
+      }
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct CycleRequest {
   bool skipped_pairs = true;
 
   /// Whether to compute intervals and deepest points; wrenches and points imply it. If not, a pair whose surfaces are
-  /// found to cross gets one interval and deepest point, at the time and location of the crossing and without a depth;
-  /// no field is queried.
+  /// found to cross, or of which one body is found inside the other, gets one interval and deepest point, where that
+  /// was found and without a depth; no field is queried.
   bool contacts = true;
 
   /// Once this much of the cycle's time is used up [s], no further pair is tested, except that every cycle tests at
