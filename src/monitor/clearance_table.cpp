@@ -195,6 +195,7 @@ void ClearanceTable::forget() {
 }
 
 void ClearanceTable::advance(const BodyTwists& bodies) {
+  if (blocks_.empty()) return;
   addTravel({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(), slack_.data(),
              error_.data()});
   has_spent_ = true;
@@ -202,6 +203,7 @@ void ClearanceTable::advance(const BodyTwists& bodies) {
 
 SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
   due.clear();
+  if (blocks_.empty()) return {};
   std::size_t count = 0;
   SkippedPairs quiet = scanPairs({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(),
                                   slack_.data(), error_.data()},

@@ -277,5 +277,16 @@ TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
   EXPECT_EQ(dueAfter(vague), 0u);
 }
 
+/// As after the world has lost its last body: undefined behaviour only sanitizers see.
+TEST(ClearanceTable, OfNoPairsNoneIsDue) {
+  const Scene scene;
+  ClearanceTable table(scene.pairs);
+  BodyTwists bodies(scene);
+  std::vector<DuePair> due(1);
+  table.advance(bodies);
+  EXPECT_EQ(table.finish(bodies, due).pair, -1);
+  EXPECT_TRUE(due.empty());
+}
+
 }  // namespace
 }  // namespace sdf_ccd
