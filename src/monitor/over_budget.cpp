@@ -62,7 +62,7 @@ std::string overBudget(const Scene& scene) {
   if (!scene.max_error || scene.bound.total() <= *scene.max_error) return "";
   std::map<std::pair<std::string, std::string>, std::pair<double, std::string>> largest;  // bound and text of the worst
   for (const PlannedPair& pair : scene.pairs) {
-    if (hasTriangles(scene, pair)) continue;
+    if (trianglesDecide(scene, pair)) continue;
     const double total = pairBound(scene, pair).total() + scene.motion_margin;
     if (total <= *scene.max_error) continue;
     for (const Reason& reason : reasons(scene, pair, divideErrorBudget(*scene.max_error))) {

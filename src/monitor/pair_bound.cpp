@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "half_space_patch.h"
 #include "shell/contact_gap.h"
 
 namespace sdf_ccd {
@@ -43,9 +44,16 @@ ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
   return bound;
 }
 
+bool trianglesDecide(const Body& a, const Body& b) {
+  return a.triangles ? b.triangles || isHalfSpace(b) : b.triangles && isHalfSpace(a);
+}
+
 ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair) {
-  if (!hasTriangles(scene, pair)) return pairBound(scene, pair);
-  const auto deviation = [&](int body) { return scene.bodies[body].triangles->deviation; };
+  if (!trianglesDecide(scene, pair)) return pairBound(scene, pair);
+  const auto deviation = [&](int body) {
+    const auto& triangles = scene.bodies[body].triangles;
+    return triangles ? triangles->deviation : 0.0;
+  };
   return {0.0, 0.0, 0.0, deviation(pair.body_a) + deviation(pair.body_b)};
 }
 
@@ -58,6 +66,7 @@ double greatestDepth(const Body& body) {
 
 double hiddenDepth(const Scene& scene, const PlannedPair& pair) {
   const auto depth = [&](int surface, int solid, bool has_shell) {
+    if (isHalfSpace(scene.bodies[surface])) return 0.0;  // only the other body's depth in it counts
     const PointShell& shell = *scene.bodies[surface].shell;
     const bool covers = has_shell && shell.size() > 0 && !scene.bodies[solid].parts.empty();
     const double deepest = greatestDepth(scene.bodies[solid]);

@@ -13,9 +13,10 @@ double fieldError(const Body& body);
 /// if the pair's fields or shells were not built.
 ErrorBound pairBound(const Scene& scene, const PlannedPair& pair);
 
-/// Whether triangles decide the pair.
-inline bool hasTriangles(const Scene& scene, const PlannedPair& pair) {
-  return scene.bodies[pair.body_a].triangles && scene.bodies[pair.body_b].triangles;
+/// Whether triangles decide the pair: those of both bodies, or those of one against a half-space.
+bool trianglesDecide(const Body& a, const Body& b);
+inline bool trianglesDecide(const Scene& scene, const PlannedPair& pair) {
+  return trianglesDecide(scene.bodies[pair.body_a], scene.bodies[pair.body_b]);
 }
 
 /// Error bound of a pair's verdict before any motion: the deviation of the triangles if they decide, else pairBound().

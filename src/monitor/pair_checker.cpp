@@ -30,7 +30,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
       open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])),
       roles_(scene, pair) {
-  if (hasTriangles(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
+  if (trianglesDecide(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
   if (surfaces_ && ContactRefinement::isPossible(scene, pair))
     refinement_.emplace(scene, pair, surfaces_->resolution());
   bound_ = pairBound(scene, pair);
@@ -72,7 +72,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
     setRoles(bodies, result.span);
     apart = roles_.ballClearance();
   }
-  motion_error_ += givenError(motion);
+  motion_error_ += givenError(motion, roles_.front().motion());
   result.error = bound();
   result.error.chord = motion_error_;
   if (balls_contain_bodies_ && apart > margin() + motion_error_) {
@@ -152,12 +152,11 @@ void PairChecker::setRoles(const SweptBodies& bodies, const WaypointSpan& span) 
 }
 
 /// The motion error given with the motion, for both bodies together [m].
-double PairChecker::givenError(const CycleMotion& motion) const {
+double PairChecker::givenError(const CycleMotion& motion, const RelativeMotion& relative) const {
   if (motion.motion_error.empty()) return 0.0;
   const double error_a = motion.motion_error[pair_.body_a], error_b = motion.motion_error[pair_.body_b];
-  if (surfaces_) return error_a + error_b;
-  const double scale = roles_.front().fieldErrorScale();
-  return roles_.front().fieldBody() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
+  const double scale = relative.errorScaleOfF();
+  return relative.f() == pair_.body_a ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
 /// @param bound  without the motion's error. @throws std::runtime_error if the sum is not finite.
@@ -171,7 +170,7 @@ void PairChecker::setError(const ErrorBound& bound, double root, PairResult& res
 void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                         PairResult& result) {
   setMotion(bodies, result.span);
-  const double given_error = givenError(motion);
+  const double given_error = givenError(motion, relativeMotion());
   motion_error_ += given_error;
   setError(bound(), surfaces_ ? 0.0 : kRootTolerance * travel_, result);
   const double margin = this->margin() + result.error.chord + result.error.root;

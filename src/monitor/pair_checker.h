@@ -77,7 +77,7 @@ class PairChecker {
   const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
   void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
-  double givenError(const CycleMotion& motion) const;
+  double givenError(const CycleMotion& motion, const RelativeMotion& relative) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
   void completePeaks(PairResult& result);
@@ -100,7 +100,7 @@ class PairChecker {
   bool balls_contain_bodies_;  // the bodies' balls contain all of them
   bool open_;                  // a point inside some field may be outside its body
   PairRoles roles_;
-  std::optional<SurfacePair> surfaces_;          // if both bodies have triangles
+  std::optional<SurfacePair> surfaces_;          // if triangles decide
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
   bool outside_ = false;         // neither body had a component wholly inside the other at the last cycle's end
   ErrorBound bound_;             // of field and gap

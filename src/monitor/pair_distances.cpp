@@ -6,6 +6,7 @@
 
 #include "body/body_triangles.h"
 #include "monitor/contact_tracker.h"
+#include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
 #include "query/shell_distance.h"
@@ -19,12 +20,6 @@ namespace {
 constexpr double kTriangleError = 1e-7;
 
 constexpr double kSameTime = 1e-8;  // some times the rounding of time stamps [s]
-
-bool isOneHalfSpace(const Body& body) {
-  if (body.parts.size() != 1) return false;
-  const Primitive* const primitive = body.parts.front().field.primitive();
-  return primitive && isHalfSpace(*primitive);
-}
 
 /// Whether the result has the bodies touching at the end of the span.
 bool touchesAtEnd(const PairResult& pair, double end) {
@@ -59,7 +54,7 @@ void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_no
   near_.erase(std::remove_if(near_.begin(), near_.end(), isGone), near_.end());
   for (PairDistance& near : near_) {
     const int now = pairs_now[near.pair];
-    pairs_[now] = before.pairs_[near.pair];
+    pairs_[now] = std::move(before.pairs_[near.pair]);
     near.pair = now;
     near.body_a = scene_->pairs[now].body_a;
     near.body_b = scene_->pairs[now].body_b;
@@ -118,7 +113,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   found.is_with_map = !scene_->bodies[result.body_a].map.empty() || !scene_->bodies[result.body_b].map.empty();
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
-  const bool is_exact = scene_->bodies[result.body_a].triangles && scene_->bodies[result.body_b].triangles;
+  const bool is_exact = trianglesDecide(*scene_, scene_->pairs[i]);
   const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
   // Bodies that touched may have separated before the end of the span; triangles tell that exactly. They can have moved
   // `gone` apart at most: a larger distance of the surfaces means that one body is inside the other.
@@ -152,7 +147,7 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
                                 PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
-  if (a.triangles && b.triangles) return nearestOfSurfaces(i, X_WA, X_WB, range, found);
+  if (trianglesDecide(a, b)) return nearestOfSurfaces(i, X_WA, X_WB, range, found);
   // A body without a shell has only one point per component, which gives no useful distance: the other body has a
   // shell.
   bool is_within = false;
@@ -164,13 +159,23 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
   return is_within;
 }
 
+/// The body's triangles, or those of a half-space that are near the other body.
+const BoxTree& PairDistances::treeOf(const Body& body, const Body& other, const Isometry3d& X_BO, Pair& pair) {
+  if (body.triangles) return body.triangles->tree;
+  if (!pair.half_space) pair.half_space = std::make_unique<HalfSpacePatch>(body);
+  pair.half_space->cover({X_BO * other.ball.center, other.ball.radius}, 0.0);
+  return pair.half_space->tree();
+}
+
 bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                                       PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
-  const BodyTriangles &a = *scene_->bodies[pair.body_a].triangles, &b = *scene_->bodies[pair.body_b].triangles;
+  const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
-  const double error = a.deviation + b.deviation + kTriangleError * (a.tree.ball().radius + b.tree.ball().radius);
-  const auto nearest = surfaceDistance(a.tree, b.tree, X_AB, range + error, pairs_[i].witness, memory_);
+  const BoxTree &a = treeOf(body_a, body_b, X_AB, pairs_[i]), &b = treeOf(body_b, body_a, X_AB.inverse(), pairs_[i]);
+  const double deviation = verdictBound(*scene_, pair).total();
+  const double error = deviation + kTriangleError * (a.ball().radius + b.ball().radius);
+  const auto nearest = surfaceDistance(a, b, X_AB, range + error, pairs_[i].witness, memory_);
   if (!nearest) return false;
   found.distance = nearest->distance;
   found.error = error;
@@ -178,8 +183,15 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   found.p_B_W = X_WA * nearest->q_A;
   const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);
   if (nearest->distance > 0.0) found.normal_W = displacement / nearest->distance;
-  const auto slab = slabBetween(a.tree, b.tree, X_AB, *nearest);
-  if (slab && *slab > a.deviation + b.deviation) found.slab = ClosingGap{*slab - a.deviation - b.deviation, 0.0, 0.0};
+  if (const auto& half_space = pairs_[i].half_space) {  // below all of the other body, exactly along its normal
+    const bool is_a = !body_a.triangles;
+    found.normal_W =
+        is_a ? Vector3d(X_WA.linear() * half_space->normal()) : Vector3d(X_WB.linear() * -half_space->normal());
+    found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
+    return true;
+  }
+  const auto slab = slabBetween(a, b, X_AB, *nearest);
+  if (slab && *slab > deviation) found.slab = ClosingGap{*slab - deviation, 0.0, 0.0};
   return true;
 }
 
@@ -211,7 +223,7 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
     found.p_B_W = shell_is_a ? on_f : on_p;
     found.normal_W = shell_is_a ? Vector3d(-out_W) : out_W;
   }
-  if (is_within && isOneHalfSpace(f)) {
+  if (is_within && isHalfSpace(f)) {
     found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
   }
   return is_within;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "monitor/half_space_patch.h"
 #include "query/separation.h"
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -79,7 +81,8 @@ class PairDistances {
     double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
     Isometry3d X_FP = Isometry3d::Identity();
     SeparationWitness witness;
-    PairDistance last;  // valid if is_near
+    std::unique_ptr<HalfSpacePatch> half_space;  // set if one body is one, and the pair was near
+    PairDistance last;                           // valid if is_near
     bool is_near = false;
   };
 
@@ -89,6 +92,7 @@ class PairDistances {
   bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
   bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                          PairDistance& found);
+  static const BoxTree& treeOf(const Body& body, const Body& other, const Isometry3d& X_BO, Pair& pair);
   bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
                       double range, PairDistance& found);
 

@@ -23,11 +23,6 @@ void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, Ro
   motion_.take(bodies, span, memory.bounds);
 }
 
-double PairRole::fieldErrorScale() const {
-  if (ballContainsBody(*field_body_)) return 1.0;
-  return std::max(1.0, motion_.reach() / kHalfSpaceRadius);
-}
-
 void PairRole::cut(const ChordOptions& options) {
   ChordPath& path = memory_->path;
   path.chords.clear();

@@ -43,11 +43,6 @@ class PairRole {
 
   const RelativeMotion& motion() const { return motion_; }
 
-  /// Factor from the motion error of the field's body, which holds within its ball, to the error of its surface where
-  /// the shell is. It exceeds 1 for a half-space, which reaches beyond its ball: motion errors grow at most in
-  /// proportion to the distance.
-  double fieldErrorScale() const;
-
   /// Cuts the motion into chords, for path() and partPath().
   void cut(const ChordOptions& options);
   const ChordPath& path() const { return memory_->path; }

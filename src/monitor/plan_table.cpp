@@ -74,7 +74,7 @@ std::string boundLines(const Scene& scene) {
             fixedText(1e3 * *scene.max_error, 2);
   }
   const auto by_triangles = std::count_if(scene.pairs.begin(), scene.pairs.end(),
-                                          [&](const PlannedPair& pair) { return hasTriangles(scene, pair); });
+                                          [&](const PlannedPair& pair) { return trianglesDecide(scene, pair); });
   return text + sources(bound) + "; triangles decide about " + std::to_string(by_triangles) + " of " +
          std::to_string(scene.pairs.size()) +
          " pairs\nerror bound of contacts' times and of depths at the shells' points: " +

@@ -1,6 +1,13 @@
 #include "relative_motion.h"
 
+#include <algorithm>
+
+#include "pose_rounding.h"
+
 namespace sdf_ccd {
+
+RelativeMotion::RelativeMotion(const Scene& scene, int f, int p)
+    : ball_(&scene.bodies[p].ball), is_f_in_ball_(ballContainsBody(scene.bodies[f])), f_(f), p_(p) {}
 
 void RelativeMotion::take(const SweptBodies& bodies, const WaypointSpan& span,
                           std::vector<RelativeMotionBounds>& bounds) {
@@ -22,6 +29,10 @@ TwoBodyMotion RelativeMotion::motion(std::size_t step) const {
   const std::size_t k = span_.first + step;
   const std::vector<double>& times = bodies_->times();
   return {times[k], times[k + 1], bodies_->screw(f_, k), bodies_->screw(p_, k), bounds(step).acceleration};
+}
+
+double RelativeMotion::errorScaleOfF() const {
+  return is_f_in_ball_ ? 1.0 : std::max(1.0, reach() / kHalfSpaceRadius);
 }
 
 double RelativeMotion::reach() const {

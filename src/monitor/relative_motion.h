@@ -11,7 +11,7 @@ namespace sdf_ccd {
 /// (design §3.12).
 class RelativeMotion {
  public:
-  RelativeMotion(const Scene& scene, int f, int p) : ball_(&scene.bodies[p].ball), f_(f), p_(p) {}
+  RelativeMotion(const Scene& scene, int f, int p);
 
   int f() const { return f_; }
   int p() const { return p_; }
@@ -38,11 +38,16 @@ class RelativeMotion {
   /// Error that the rounding of the poses adds to a distance [m].
   double poseError() const { return pose_error_; }
 
+  /// Factor from the motion error of F, which holds within its ball, to the error of its surface where P is. It exceeds
+  /// 1 for a half-space, which reaches beyond its ball: motion errors grow at most in proportion to the distance.
+  double errorScaleOfF() const;
+
   /// Upper bound of the displacement of P's ball's points from another pose to start() [m].
   double jumpFrom(const Isometry3d& X_FP) const { return maxDisplacement(X_FP, X_FP_start_, *ball_); }
 
  private:
   const BoundingBall* ball_;  // of P
+  bool is_f_in_ball_;
   int f_, p_;
   const SweptBodies* bodies_ = nullptr;
   WaypointSpan span_;

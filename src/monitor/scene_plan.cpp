@@ -84,9 +84,14 @@ std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
 
 /// A body while its pairs are planned.
 struct Planned {
-  bool is_large = false, has_pair = false, needs_faces = false, may_have_triangles = false;
+  bool is_large = false, has_pair = false, needs_faces = false, may_have_triangles = false, is_half_space = false;
   Extent extent;
 };
+
+/// Whether the surface of a is known well enough to decide its pair with b.
+bool isSurfaceKnown(const Planned& a, const Planned& b) {
+  return a.may_have_triangles || (a.is_half_space && b.may_have_triangles);
+}
 
 /// Without a shell of the large body, it would not be noticed wholly inside the small one. So it must be too long for
 /// that.
@@ -108,12 +113,13 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
   const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
   if (a_witnesses) needs[i].witnesses = needs[k].field = true;
   if (b_witnesses) needs[k].witnesses = needs[i].field = true;
-  if (checkable && of_a.may_have_triangles && of_b.may_have_triangles) needs[i].triangles = needs[k].triangles = true;
+  const bool a_known = isSurfaceKnown(of_a, of_b), b_known = isSurfaceKnown(of_b, of_a);
+  if (checkable && a_known && b_known) needs[i].triangles = needs[k].triangles = true;
   if (a_can && b_can && options.both_fields) needs[i].field = needs[k].field = true;
   if (a_shell) needs[i].shell = needs[k].field = true;
   if (b_shell) needs[k].shell = needs[i].field = true;
-  if (!of_a.may_have_triangles) needs[k].decides = true;
-  if (!of_b.may_have_triangles) needs[i].decides = true;
+  if (!a_known) needs[k].decides = true;
+  if (!b_known) needs[i].decides = true;
   of_a.needs_faces |= a_faces;
   of_b.needs_faces |= b_faces;
   of_a.has_pair = of_b.has_pair = true;
@@ -143,6 +149,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
     planned[i].may_have_triangles = mayHaveTriangles(body);
+    planned[i].is_half_space = body.geometry.size() == 1 && isHalfSpace(body.geometry.front());
     if (!isPlanned(body)) continue;
     plan.needs[i].field = hidesVoxels(description, body);
     planned[i].is_large = isLarge(body, options);

@@ -42,7 +42,7 @@ void setTotals(Scene& scene) {
     ErrorBound of_contacts = pairBound(scene, pair), bound = verdictBound(scene, pair);
     if (of_contacts.total() == 0.0) continue;  // one of the bodies was not built
     of_contacts.chord = scene.motion_margin;
-    bound.chord = hasTriangles(scene, pair) ? scene.motion_error : scene.motion_margin;
+    bound.chord = trianglesDecide(scene, pair) ? scene.motion_error : scene.motion_margin;
     if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
     for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
       if (isLarger(bound, *largest)) *largest = bound;

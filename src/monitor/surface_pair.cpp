@@ -6,6 +6,7 @@
 #include "common/infinity.h"
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
+#include "pair_bound.h"
 
 namespace sdf_ccd {
 namespace {
@@ -48,6 +49,11 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
   return std::all_of(components.begin(), components.end(), is_outside);
 }
 
+/// Whether the first of two bodies is body F.
+bool isFirstF(const Body& a, const Body& b) {
+  return a.triangles && b.triangles ? a.ball.radius >= b.ball.radius : !a.triangles;
+}
+
 /// Options to look closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer
 /// one costs nothing on average; what stays that near, as a part that slides on a table, takes a few tests more in each
 /// cycle.
@@ -62,30 +68,41 @@ SeparationOptions finer(SeparationOptions options, int tests) {
 }  // namespace
 
 SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution)
-    : f_is_a_(scene.bodies[pair.body_a].ball.radius >= scene.bodies[pair.body_b].ball.radius),
+    : f_is_a_(isFirstF(scene.bodies[pair.body_a], scene.bodies[pair.body_b])),
       motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a),
+      field_(&scene.bodies[motion_.f()]),
+      shell_(&scene.bodies[motion_.p()]),
+      deviation_(verdictBound(scene, pair).total()),
       resolution_(resolution) {
-  field_ = &scene.bodies[motion_.f()];
-  shell_ = &scene.bodies[motion_.p()];
-  deviation_ = field_->triangles->deviation + shell_->triangles->deviation;
+  if (!field_->triangles) half_space_.emplace(*field_);
+}
+
+void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
+                            std::vector<RelativeMotionBounds>& bounds) {
+  motion_.take(bodies, span, bounds);
+  if (half_space_) half_space_->cover({motion_.start() * shell_->ball.center, shell_->ball.radius}, motion_.travel());
 }
 
 double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
-  return (X_FP * shell_->ball.center - field_->ball.center).norm() - shell_->ball.radius - field_->ball.radius;
+  const Vector3d center_F = X_FP * shell_->ball.center;
+  const double to_f =
+      half_space_ ? half_space_->distance(center_F) : (center_F - field_->ball.center).norm() - field_->ball.radius;
+  return to_f - shell_->ball.radius;
 }
 
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
-  const BodyTriangles &f = *field_->triangles, &p = *shell_->triangles;
-  const double margin = motion_error + deviation_;
-  if (f.closed || p.closed) {
+  const BodyTriangles& p = *shell_->triangles;
+  const double margin = motion_error + error();
+  const BoxTree& closed_f = half_space_ ? treeF() : field_->triangles->closedTree();
+  if (&closed_f != &treeF() || p.closed) {
     // Apart including the caps that close openings: nothing has entered through an opening.
-    const Answer closed = decideBy(f.closedTree(), p.closedTree(), margin, closed_witness_, memory);
+    const Answer closed = decideBy(closed_f, p.closedTree(), margin, closed_witness_, memory);
     if (closed.state == SeparationState::kApart) return closed;
-    Answer open = decideBy(f.tree, p.tree, margin, witness_, memory);
+    Answer open = decideBy(treeF(), p.tree, margin, witness_, memory);
     if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // perhaps inside
     return open;
   }
-  return decideBy(f.tree, p.tree, margin, witness_, memory);
+  return decideBy(treeF(), p.tree, margin, witness_, memory);
 }
 
 SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, double margin, SeparationWitness& witness,
@@ -127,7 +144,7 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
   }
   if (!apart) return answer;
   answer.state = SeparationState::kApart;
-  answer.clearance = distance - deviation_;
+  answer.clearance = distance - error();
   return answer;
 }
 
@@ -138,10 +155,11 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step, d
   ContactPoint contact;
   contact.time = contact.enter = contact.exit = timeAt(motion, share);
   contact.p_W = X_WF * found.p_A;
-  contact.normal_W = X_WF.linear() * found.normal_A;
-  // From body A to body B. A single triangle does not tell the side: take the one where the other ball's centre lies.
+  Vector3d normal = X_WF.linear() * (half_space_ ? half_space_->normal() : found.normal_A);
+  // A single triangle does not tell the side: take the one where the other ball's centre lies.
   const Vector3d to_p = X_WP * shell_->ball.center - contact.p_W;
-  if ((contact.normal_W.dot(to_p) > 0.0) != f_is_a_) contact.normal_W = -contact.normal_W;
+  if (!half_space_ && !(normal.dot(to_p) > 0.0)) normal = -normal;
+  contact.normal_W = fromAToB(normal);
   return contact;
 }
 
@@ -150,14 +168,14 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
                                SeparationMemory& memory) {
   SeparationOptions options;
   // Poses within a step differ from the step's own by rounding.
-  options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  options.margin = motion_error + error() + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
   options.resolution = resolution_;
   const TwoBodyMotion whole = motion_.motion(step);
   const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
   const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
   const double length = end - start;
   const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
-  return separation(field_->triangles->tree, shell_->triangles->tree, part, options, witness_, memory);
+  return separation(treeF(), shell_->triangles->tree, part, options, witness_, memory);
 }
 
 std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
@@ -211,6 +229,13 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
 
 SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const {
   std::optional<Vector3d> p_F, p_P;
+  if (half_space_) {
+    for (const std::vector<Vector3d>& corners : shell_->triangles->components) {
+      const Vector3d corner_F = X_FP * corners.front();
+      if (!(half_space_->distance(corner_F) > 0.0)) return {false, corner_F};
+    }
+    return {true, std::nullopt};
+  }
   const bool excluded =
       componentsAreOutside(*shell_, *field_, X_FP, p_F) && componentsAreOutside(*field_, *shell_, X_FP.inverse(), p_P);
   if (p_P) p_F = X_FP * *p_P;
@@ -222,12 +247,13 @@ std::optional<ContactPoint> SurfacePair::containedPoint() const {
   if (!p_F) return std::nullopt;
   const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
   const Isometry3d X_WF = last.X_WF.pose(1.0);
-  const Vector3d way = last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center;
+  const Vector3d way = half_space_ ? Vector3d(X_WF.linear() * half_space_->normal())
+                                   : Vector3d(last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center);
   ContactPoint contact;
   contact.enter = motion_.motion(0).t_start;
   contact.time = contact.exit = last.t_end;
   contact.p_W = X_WF * *p_F;
-  contact.normal_W = (f_is_a_ ? 1.0 : -1.0) * (way.norm() > 0.0 ? way.normalized() : Vector3d::UnitZ());
+  contact.normal_W = fromAToB(way.norm() > 0.0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitZ()));
   return contact;
 }
 

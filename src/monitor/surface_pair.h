@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "body/body_triangles.h"
+#include "half_space_patch.h"
 #include "query/separation.h"
 #include "relative_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -10,20 +11,18 @@
 namespace sdf_ccd {
 
 /// Decides a pair by the triangles of both bodies, exactly up to the errors of the motions (design §3.17): whether
-/// their surfaces stay apart or certainly cross.
+/// their surfaces stay apart or certainly cross. One of them may be a half-space.
 class SurfacePair {
  public:
-  /// The pair must satisfy hasTriangles().
+  /// The pair must satisfy trianglesDecide().
   /// @param resolution  surfaces closer than this may remain undecided [m].
   SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution);
 
   /// Sets the motion over a part of a cycle; SweptBodies::problem() must be empty for both bodies.
   /// @param bounds  see RelativeMotion::take().
-  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds) {
-    motion_.take(bodies, span, bounds);
-  }
+  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds);
 
-  /// Of the smaller body relative to the larger one.
+  /// Of the smaller body relative to the larger one, or to the half-space.
   const RelativeMotion& motion() const { return motion_; }
 
   /// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
@@ -75,8 +74,8 @@ class SurfacePair {
 
   /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
   /// (they are apart, and seen from the outside) or CONTACT (they cross).
-  bool isOutsideDoubtful() const { return field_->doubtful || shell_->doubtful; }
-  bool isInsideDoubtful() const { return field_->inside_is_doubtful || shell_->inside_is_doubtful; }
+  bool isOutsideDoubtful() const { return !half_space_ && (field_->doubtful || shell_->doubtful); }
+  bool isInsideDoubtful() const { return !half_space_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
 
  private:
   struct Containment {
@@ -84,15 +83,19 @@ class SurfacePair {
     std::optional<Vector3d> p_F;  ///< certainly inside both bodies, or on the surface of one
   };
   Containment containment(const Isometry3d& X_FP) const;
+  double error() const { return deviation_ + (half_space_ ? half_space_->deviation() : 0.0); }
+  const BoxTree& treeF() const { return half_space_ ? half_space_->tree() : field_->triangles->tree; }
+  Vector3d fromAToB(const Vector3d& from_f_to_p) const { return f_is_a_ ? from_f_to_p : Vector3d(-from_f_to_p); }
 
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
                   SeparationMemory& memory) const;
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
 
-  const Body *field_, *shell_;  // bodies F and P; P is the smaller one
   bool f_is_a_;
   RelativeMotion motion_;
+  const Body *field_, *shell_;                // bodies F and P; P is the smaller one, or F the half-space
+  std::optional<HalfSpacePatch> half_space_;  // F, if it is one
   double deviation_;
   double resolution_;
   SeparationWitness witness_, closed_witness_;

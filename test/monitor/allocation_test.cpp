@@ -10,7 +10,7 @@ namespace {
 using namespace test;
 
 TEST(Allocation, NoneWhilePairsAreClear) {
-  const auto scene = build({body("ground", ground(), true), body("a", Primitive(Sphere{0.1})),
+  const auto scene = build({groundWithoutSurface(), body("a", Primitive(Sphere{0.1})),
                             body("b", Primitive(Box{{0.1, 0.1, 0.1}})), body("c", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, {});
   std::vector<CycleMotion> motions;

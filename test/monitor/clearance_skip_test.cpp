@@ -118,7 +118,7 @@ TEST(ClearanceSkip, ClearancesHoldWhetherOrNotTheyAreAskedFor) {
 }
 
 TEST(ClearanceSkip, LookingCloserIsPaidForOnlyWhenNear) {
-  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
+  const auto scene = build({groundWithoutSurface(), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
   Monitor monitor(scene, {});
   const auto at = [&](double from, double to) -> const PairResult& {
     return monitor

@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 
 TEST(Monitor, GivesAllFourVerdicts) {
-  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
+  const auto scene = build({groundWithoutSurface(), body("ball", Primitive(Sphere{0.1}))}, fine(0.02));
   Monitor monitor(scene, soft());
   const auto verdictAt = [&](double height) {
     monitor.reset();
@@ -241,7 +241,7 @@ TEST(Monitor, BoundBeyondTheBandNeverMakesClear) {
 }
 
 TEST(Monitor, MotionErrorsOfBothBodiesCount) {
-  const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  const auto scene = build({groundWithoutSurface(), body("ball", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, soft());
   const auto run = [&](double height, double angle) -> const PairResult& {
     const Isometry3d X = translation({0, 0, height});
@@ -299,7 +299,7 @@ TEST(Monitor, PairsAreCheckedOverTheirOwnSpans) {
 }
 
 TEST(Monitor, ClearanceAllowsForTheGapsBetweenPoints) {
-  Scene scene = *build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1}))});
+  Scene scene = *build({groundWithoutSurface(), body("ball", Primitive(Sphere{0.1}))});
   Body ball = scene.bodies[1];
   PointShell coarse = ball.shell;
   coarse.covering_radius = 0.2;

@@ -62,8 +62,8 @@ struct Body : BodyPlace {
   SharedValue<PointShell> witnesses;  ///< frame B; replace a shell: one point per component, none for half-spaces
   SharedValue<SphereTree> witness_tree;
   std::shared_ptr<const BodySurface> surface;      ///< set if a pair has a field with openings; null for a half-space
-  std::shared_ptr<const BodyTriangles> triangles;  ///< decide the pairs whose bodies both have them; null if the body
-                                                   ///< is not made of triangles alone, or is in no such pair
+  std::shared_ptr<const BodyTriangles> triangles;  ///< decide pairs whose bodies both have them or one is a half-space;
+                                                   ///< null if it is not made of triangles alone, or in no such pair
   /// All bounded geometry of a body with a mesh whose sign is not trusted (MeshQuality::sign_trusted), with caps in
   /// openings and boxes around primitives, frame B. Only points with a free line of sight to the outside are certainly
   /// outside. Null for other bodies, whose fields give the sign.

@@ -1,0 +1,205 @@
+// Verdicts about bodies and a half-space against the lowest points of boxes, balls and cylinders.
+#include <gtest/gtest.h>
+
+#include "monitor/scene_case.h"
+#include "oracle/drawn_meshes.h"
+#include "oracle/open_shapes.h"
+#include "oracle/random.h"
+#include "oracle/shapes.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+const Vector3d kHalf(0.1, 0.05, 0.02);
+constexpr double kRadius = 0.04, kHalfLength = 0.07;
+
+/// Shapes, and how far each reaches against a direction of its frame.
+struct Case {
+  const char* name;
+  Shape shape;
+  double (*depthAlong)(const Vector3d& down);
+};
+
+double boxDepth(const Vector3d& down) {
+  return down.cwiseAbs().dot(kHalf);
+}
+
+const Case kCases[] = {
+    {"box", Primitive(Box{kHalf}), boxDepth},
+    {"mesh", meshShape(boxMesh(kHalf)), boxDepth},
+    {"open mesh", meshShape(without(boxMesh(kHalf), [](const Vector3d& p) { return p.z() > 0.9 * kHalf.z(); })),
+     boxDepth},
+    {"ball", Primitive(Sphere{kRadius}), [](const Vector3d&) { return kRadius; }},
+    {"cylinder", Primitive(Cylinder{kRadius, kHalfLength}),
+     [](const Vector3d& down) { return kRadius * std::hypot(down.x(), down.y()) + kHalfLength * std::abs(down.z()); }},
+};
+
+/// A body above a half-space that its description has at X_BG.
+struct Fall {
+  Fall(const Shape& shape, const Isometry3d& X_BG, bool ground_first = true) : ground_first(ground_first) {
+    BodyDescription plane = body("ground", ground());
+    plane.geometry[0].X_BG = X_BG;
+    std::vector<BodyDescription> bodies = {plane, body("thing", shape)};
+    if (!ground_first) std::swap(bodies[0], bodies[1]);
+    scene = build(std::move(bodies), fine(0.02));
+    monitor = std::make_unique<Monitor>(scene, soft());
+  }
+
+  PairResult run(const std::vector<Isometry3d>& X_WG, const std::vector<Isometry3d>& X_WP,
+                 const CycleRequest& request = {}) {
+    return monitor->run(ground_first ? cycle(0.1, {X_WG, X_WP}) : cycle(0.1, {X_WP, X_WG}), request).pairs.front();
+  }
+
+  bool ground_first;
+  std::shared_ptr<const Scene> scene;
+  std::unique_ptr<Monitor> monitor;
+};
+
+Isometry3d anyPose(Random& random, double distance) {
+  return test::pose(random, kPi, distance);
+}
+
+/// The half-space is tilted, far out, in a frame of its own, and both bodies move, together and against each other.
+TEST(HalfSpacePair, TellsATenthOfAMillimetre) {
+  Random random(5);
+  int clear = 0, contact = 0;
+  for (const Case& each : kCases) {
+    for (int trial = 0; trial < 200; ++trial) {
+      const Isometry3d X_BG = anyPose(random, 2.0), X_WB = anyPose(random, 3.0);
+      Fall fall(each.shape, X_BG, trial % 2 == 0);
+      const Isometry3d R = test::pose(random, kPi, 0.0);
+      const Vector3d down = R.linear().transpose() * -Vector3d::UnitZ();
+      const double gap = (trial % 4 < 2 ? 1.0 : -1.0) * std::pow(10.0, uniform(random, -4.0, -1.5));
+      // A sheet's lowest point may lie in its opening.
+      const double low = each.depthAlong(down);
+      if (each.name == std::string("open mesh") && down.z() > -0.5) continue;
+      const Vector3d end = {uniform(random, -20.0, 20.0), uniform(random, -20.0, 20.0), low + gap};
+      const Vector3d start = end + Vector3d(uniform(random, -0.3, 0.3), uniform(random, -0.3, 0.3), 0.05);
+      const Isometry3d X_BG_moved = trial % 3 == 0 ? Isometry3d(translation({0.1, 0.2, 0.3})) : Isometry3d::Identity();
+      const auto placed = [&](const Vector3d& p) { return X_WB * X_BG * translation(p) * R; };
+      const PairResult result = fall.run({X_WB, X_BG_moved * X_WB}, {placed(start), X_BG_moved * placed(end)});
+      ASSERT_EQ(result.verdict, gap > 0.0 ? Verdict::kClear : Verdict::kContact)
+          << each.name << " " << trial << " " << gap;
+      EXPECT_LT(result.error.total(), 1e-5);
+      if (gap > 0.0) {
+        EXPECT_LE(result.clearance, gap + 1e-12);
+      } else {
+        EXPECT_GE(result.intervals.front().enter, 0.0);
+        EXPECT_LE(result.deepest.depth - result.deepest.depth_error, -gap + 1e-9);
+        // Between points a curved surface may be deeper.
+        const double known = result.deepest.depth + result.deepest.depth_error + result.contact_error.gap;
+        EXPECT_GE(known, std::min(-gap, 2.0 * low) - 1e-9) << each.name;
+      }
+      ++(gap > 0.0 ? clear : contact);
+    }
+  }
+  EXPECT_GT(clear, 400);
+  EXPECT_GT(contact, 400);
+}
+
+/// A turn dips a corner below the ground for a moment; the truth is sampled densely.
+TEST(HalfSpacePair, SeesWhatATurnDips) {
+  Random random(6);
+  Fall fall(Primitive(Box{kHalf}), Isometry3d::Identity());
+  int contacts = 0, clear = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Vector3d axis = uniformIn(random, {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)}).normalized();
+    const double angle = uniform(random, 0.1, 2.5);
+    const Isometry3d R = test::pose(random, kPi, 0.0);
+    double deepest = -1e9;
+    for (int i = 0; i <= 2000; ++i) {
+      const Matrix3d turned = Eigen::AngleAxisd(angle * i / 2000.0, axis).toRotationMatrix() * R.linear();
+      deepest = std::max(deepest, boxDepth(turned.transpose() * -Vector3d::UnitZ()));
+    }
+    const double gap = (trial % 2 == 0 ? 1.0 : -1.0) * uniform(random, 2e-4, 2e-3);
+    const Isometry3d X = translation({0.3, 0.2, deepest + gap});
+    Isometry3d turn = Isometry3d::Identity();
+    turn.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    const Verdict verdict = fall.run(still(Isometry3d::Identity()), {X * R, X * turn * R}).verdict;
+    EXPECT_EQ(verdict, gap > 0.0 ? Verdict::kClear : Verdict::kContact) << trial << " " << gap;
+    ++(gap > 0.0 ? clear : contacts);
+  }
+  EXPECT_GT(contacts, 100);
+  EXPECT_GT(clear, 100);
+}
+
+/// Whatever is below the surface is in contact, all the time, with the half-space's normal.
+TEST(HalfSpacePair, WhatIsWhollyBelowIsAContact) {
+  for (const bool ground_first : {true, false})
+    for (const Case& each : kCases)
+      for (const bool wants_contacts : {true, false})
+        for (const double height : {-0.2, -3.0, -0.03}) {
+          Fall fall(each.shape, Isometry3d::Identity(), ground_first);
+          CycleRequest request;
+          request.contacts = request.wrenches = wants_contacts;
+          const auto at = still(translation({1, 2, height}));
+          const PairResult result = fall.run(still(Isometry3d::Identity()), at, request);
+          ASSERT_EQ(result.verdict, Verdict::kContact) << each.name << " " << height;
+          EXPECT_NEAR(result.deepest.normal_W.z(), ground_first ? 1.0 : -1.0, 1e-9) << each.name << " " << height;
+          if (height > -0.1 && each.name != std::string("mesh") && each.name != std::string("box")) continue;
+          ASSERT_EQ(result.intervals.size(), 1u);
+          EXPECT_EQ(result.intervals.front().enter, 0.0);
+          EXPECT_EQ(result.intervals.front().exit, 0.1);
+        }
+}
+
+/// In one cycle over many times its size, there and back.
+TEST(HalfSpacePair, SeesWhatIsFarAway) {
+  Fall fall(Primitive(Sphere{0.05}), Isometry3d::Identity());
+  const Isometry3d tilted = pose({0, 0, 0}, 1e-3, {0, 1, 0});  // falls by 1 m over a kilometre
+  const auto over = [&](double height) {
+    return fall.run(still(tilted, 3),
+                    {translation({0, 0, height}), translation({1000, 0, height}), translation({0, 5, height})});
+  };
+  EXPECT_EQ(over(0.051).verdict, Verdict::kClear);
+  EXPECT_EQ(
+      fall.run(still(tilted, 3), {translation({0, 0, 0.06}), translation({-1000, 0, 0.06}), translation({0, 5, 2})})
+          .verdict,
+      Verdict::kContact);
+  EXPECT_EQ(fall.run(still(tilted, 3), {translation({0, 0, 3}), translation({-1000, 0, 1.06}), translation({0, 5, 2})})
+                .verdict,
+            Verdict::kClear);
+}
+
+/// Where it is doubtful what is inside a mesh, it is certain what is above the ground.
+TEST(HalfSpacePair, NeedsNoInside) {
+  const TriangleMesh doubtful = merged(boxMesh(kHalf), translated(boxMesh(kHalf), {0.05, 0.01, 0.01}));
+  Fall fall(meshShape(flipped(doubtful)), Isometry3d::Identity());
+  EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, 0.0201}))).verdict, Verdict::kClear);
+  EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, 0.0199}))).verdict, Verdict::kContact);
+  EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, -1.0}))).verdict, Verdict::kContact);
+}
+
+/// A motion error of a half-space grows with the distance from its body's origin.
+TEST(HalfSpacePair, MotionErrorsGrowWithTheDistance) {
+  Fall fall(Primitive(Sphere{0.05}), Isometry3d::Identity());
+  const auto at = [&](double x, double height) {
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation({x, 0, 0.05 + height}))});
+    motion.motion_error = {0.001, 0.0};
+    fall.monitor->reset();
+    return fall.monitor->run(motion, {}).verdict;
+  };
+  EXPECT_EQ(at(0.0, 0.0015), Verdict::kClear);
+  EXPECT_EQ(at(0.0, 0.0005), Verdict::kUncertain);
+  EXPECT_EQ(at(0.0, -0.0015), Verdict::kContact);
+  EXPECT_EQ(at(1000.0, 0.05), Verdict::kUncertain);
+  EXPECT_EQ(at(1000.0, 0.15), Verdict::kClear);
+}
+
+/// A ground needs no denser shells, and does not enlarge the bound of the scene.
+TEST(HalfSpacePair, CostsNothing) {
+  const std::vector<BodyDescription> robot = {body("arm", meshShape(icosphere(0.1, 3))),
+                                              body("hand", meshShape(boxMesh(kHalf)))};
+  std::vector<BodyDescription> on_ground = robot;
+  on_ground.push_back(body("ground", ground(), true));
+  BodyOptions options;
+  const auto alone = build(robot, options), above = build(on_ground, options);
+  EXPECT_LT(above->bound.total(), 1e-4);
+  EXPECT_EQ(above->bound.total(), alone->bound.total());
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(above->bodies[i].shell->size(), alone->bodies[i].shell->size());
+}
+
+}  // namespace
+}  // namespace sdf_ccd
