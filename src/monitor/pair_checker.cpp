@@ -251,12 +251,14 @@ void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) 
 /// Adds a known crossing of the surfaces to the contacts that points feel, and what lasts besides without being felt.
 void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
   std::vector<Interval>& intervals = result.intervals;
+  const std::size_t felt = intervals.size();
   if (crossing.enter < crossing.exit) {  // one body is inside the other all the time
     intervals.assign(1, {crossing.enter, crossing.exit});
-    setTimes(intervals, result.deepest);
-    for (ContactPoint& peak : result.peaks) setTimes(intervals, peak);
+    if (felt > 0) {
+      setTimes(intervals, result.deepest);
+      result.peaks.assign(1, result.deepest);
+    }
   }
-  const std::size_t felt = intervals.size();
   setTimes(intervals, crossing);
   if (felt == 0) result.deepest = crossing;
   if (intervals.size() > felt) result.peaks.push_back(crossing);

@@ -295,6 +295,32 @@ TEST(SurfacePair, WhatIsInsideByLessThanTheFieldsErrorIsAContact) {
   }
 }
 
+/// Where no point feels that, the contact is the point that proves it; within the span.
+TEST(SurfacePair, WhatNoPointFeelsInsideHasAPlaceAndANormal) {
+  const TriangleMesh wall = boxMesh({1.0, 1.0, 0.004});
+  BodyOptions options = coarse();
+  options.field.cells = 4;
+  const auto scene = build({body("walls", meshShape(merged(wall, translated(wall, {0, 0, 1})))),
+                            body("bead", meshShape(boxMesh({0.001, 0.001, 0.001})))},
+                           options);
+  Monitor monitor(scene, soft());
+  const Vector3d place(0.1, 2, 1.001);
+  CycleMotion motion = cycle(0.1, {still(translation({0, 2, 0}), 3), still(translation(place), 3)});
+  for (const std::size_t first : {0, 1}) {
+    motion.spans = {{first, 2}};
+    monitor.reset();
+    const PairResult& result = monitor.run(motion, {}).pairs.front();
+    ASSERT_EQ(result.verdict, Verdict::kContact);
+    ASSERT_EQ(result.intervals.size(), 1u);
+    EXPECT_EQ(result.intervals[0].enter, motion.times[first]);
+    EXPECT_EQ(result.intervals[0].exit, 0.1);
+    EXPECT_LE((result.deepest.p_W - place).cwiseAbs().maxCoeff(), 0.0011);
+    EXPECT_NEAR(result.deepest.normal_W.norm(), 1.0, 1e-9);
+    EXPECT_EQ(result.deepest.enter, motion.times[first]);
+    EXPECT_EQ(result.peaks.size(), 1u);
+  }
+}
+
 /// A bead that enters a solid through its surface within one cycle is in contact, and stays so.
 TEST(SurfacePair, WhatGoesInStaysIn) {
   const auto scene =
