@@ -1,6 +1,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -87,6 +88,47 @@ bool flippedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh&
   });
 }
 
+AlignedBox3d boxOf(const TriangleMesh& mesh, const Patch& patch) {
+  AlignedBox3d box;
+  for (const std::int32_t triangle : patch.triangles)
+    for (const int vertex : mesh.triangles[triangle]) box.extend(mesh.vertices[vertex]);
+  return box;
+}
+
+/// Distance from a triangle at which seesOutside() is asked: more than it widens triangles by [m].
+double stepFrom(const TriangleMesh& mesh) {
+  return 1e-5 * boundingBox(mesh).sizes().maxCoeff();
+}
+
+/// Whether a point just outside some triangle of the patch sees the outside. Of a large patch only some are tried.
+bool isSeen(const TriangleMesh& mesh, const Patch& patch, const TriangleTree& tree, double step) {
+  constexpr std::size_t kMaxTries = 256;
+  const std::size_t stride = 1 + patch.triangles.size() / kMaxTries;
+  for (std::size_t i = 0; i < patch.triangles.size(); i += stride) {
+    checkCancelled();
+    const std::int32_t triangle = patch.triangles[i];
+    const Vector3d normal = areaNormal(mesh, triangle).normalized();
+    if (tree.seesOutside(centroid(cornersOf(mesh, triangle)) + step * normal)) return true;
+  }
+  return false;
+}
+
+/// Whether a closed patch that was flipped is hidden behind open ones: it may be a cavity in a solid whose hull does
+/// not quite meet, as well as a part drawn inside out.
+bool flippedMayBeCavity(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& flipped) {
+  AlignedBox3d open;
+  for (const Patch& patch : patches)
+    if (!patch.closed) open.extend(boxOf(drawn, patch));
+  std::optional<TriangleTree> tree;
+  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+    const std::int32_t first = patch.triangles.front();
+    if (!patch.closed || drawn.triangles[first] == flipped.triangles[first]) return false;
+    if (!open.contains(boxOf(drawn, patch))) return false;
+    if (!tree) tree.emplace(drawn);
+    return !isSeen(flipped, patch, *tree, stepFrom(drawn));
+  });
+}
+
 ClosedPatches flipClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, MeshQuality& quality) {
   ClosedPatches all;
   const std::vector<ClosedComponent> closed = inspectClosed(mesh, patches);
@@ -112,7 +154,7 @@ bool enclose(const std::vector<Vector3i>& walls, TriangleMesh mesh) {
   const std::size_t first = mesh.triangles.size();
   mesh.triangles.insert(mesh.triangles.end(), walls.begin(), walls.end());
   const TriangleTree tree(mesh);
-  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();  // more than seesOutside() widens triangles by
+  const double step = stepFrom(mesh);
   for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
     checkCancelled();
     const Vector3d center = centroid(cornersOf(mesh, static_cast<int>(i)));
@@ -145,6 +187,7 @@ void flipOutward(DistinctTriangles& distinct, OrientedMesh& result) {
   // Of a part that is drawn twice, one may be a solid and the other not.
   const bool some_flipped = closed.flipped > 0 && closed.flipped < closed.closed;
   doubtful = doubtful || (quality.duplicate_triangles > 0 && (closed.cavities > 0 || some_flipped));
+  doubtful = doubtful || (closed.flipped > 0 && flippedMayBeCavity(patches, drawn, likeness));
   TriangleMesh hiding = likeness;
   hiding.triangles.insert(hiding.triangles.end(), walls.begin(), walls.end());
   const std::vector<char> from_behind = openPatchesToFlip(hiding, patches);

@@ -6,6 +6,7 @@
 
 #include "monitor/scene_case.h"
 #include "oracle/drawn_meshes.h"
+#include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -104,6 +105,35 @@ TEST(DoubtfulMesh, WhatIsInACavityThatMayBeFilledIsNoContact) {
         merged(merged(flipped(box), cavity), translated(box, {2, 0, 0})), merged(flipped(box), flipped(cavity))}) {
     EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.01, 0, 0}), Verdict::kUncertain);
     EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.2, 0, 0}), Verdict::kContact);
+  }
+}
+
+/// Faces that do not quite meet are no closed component, in which the cavity would be known as one.
+TEST(DoubtfulMesh, WhatIsInACavityOfACrackedHousingIsNoContact) {
+  for (const double crack : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    TriangleMesh housing;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        const TriangleMesh face =
+            test::without(boxMesh({1, 1, 1}), [&](const Vector3d& p) { return side * p[axis] < 0.99; });
+        Vector3d scale = Vector3d::Constant(1.0 - crack);
+        scale[axis] = 1.0;
+        TriangleMesh smaller = face;
+        for (Vector3d& v : smaller.vertices) v = v.cwiseProduct(scale);
+        housing = merged(std::move(housing), smaller);
+      }
+    const TriangleMesh mesh = merged(housing, flipped(boxMesh({0.8, 0.8, 0.8})));
+    EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.01, 0, 0}), Verdict::kUncertain) << crack;
+    EXPECT_EQ(verdictOf(mesh, {0, 0, 0}, {0.81, 0, 0}), Verdict::kContact) << crack;
+    EXPECT_EQ(verdictOf(mesh, {1.1, 0, 0}, {1.1, 0, 0.5}), Verdict::kClear) << crack;
+  }
+}
+
+/// A part that is drawn inside out is one also if some other part is open.
+TEST(DoubtfulMesh, APartInsideOutBesideAnOpenBoxIsNotDoubtful) {
+  for (const Vector3d& place : {Vector3d(2, 0, 0), Vector3d(0, 0, 0.6)}) {
+    const TriangleMesh mesh = merged(test::binMesh(0.5), translated(flipped(boxMesh({0.1, 0.1, 0.1})), place));
+    EXPECT_FALSE(orientOutward(mesh).quality.doubtful) << place.transpose();
   }
 }
 

@@ -44,8 +44,8 @@ struct OrientedMesh {
 /// not trusted). Open parts are flipped if their back is visible from outside.
 ///
 /// The mesh is doubtful if winding numbers of parts may cancel each other, if walls without thickness enclose a region,
-/// or if it is ambiguous whether a part inside another one is a solid or a cavity because one of the two had to be
-/// flipped or is drawn in both orientations.
+/// or if it is ambiguous whether a part inside another one, or behind open ones, is a solid or a cavity because one of
+/// the two had to be flipped or is drawn in both orientations.
 ///
 /// Of triangles with the same corners one is kept. There are two exceptions. A face that two parts share, one part
 /// within the other, is kept once per part. Of a wall drawn from both sides whose border lies on other triangles, both
