@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "half_space_patch.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
 #include "pair_result.h"
@@ -13,14 +14,15 @@ namespace {
 constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
 
 bool canBeMeasured(const Body& body) {
-  return body.triangles && !body.triangles->solids.empty();
+  return isHalfSpace(body) || (body.triangles && !body.triangles->solids.empty());
 }
 
 /// Empty if no pair needs the body's fields.
 std::vector<SolidPart> partsOf(const Body& body) {
   std::vector<SolidPart> parts;
   for (std::size_t i = 0; i < body.parts.size(); ++i)
-    parts.push_back({body.parts[i].X_BG.inverse(), &body.parts[i].field, body.triangles->solids[i].get()});
+    parts.push_back({body.parts[i].X_BG.inverse(), &body.parts[i].field,
+                     body.triangles ? body.triangles->solids[i].get() : nullptr});
   return parts;
 }
 
@@ -47,7 +49,7 @@ ContactRefinement::ContactRefinement(const Scene& scene, const PlannedPair& pair
     : scene_(scene), resolution_(resolution) {
   const auto add = [&](int f, int p) {
     const Body &solid = scene.bodies[f], &surface = scene.bodies[p];
-    if (!solid.parts.empty())
+    if (!solid.parts.empty() && surface.triangles)
       directions_.push_back({f, p, {&surface.triangles->tree, partsOf(surface)}, partsOf(solid)});
   };
   add(pair.body_b, pair.body_a);
@@ -114,9 +116,10 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   }
   point.depth = search.deepest().depth;
   point.depth_error = search.error() + error;
-  // Without its fields, a body's inside is not searched for the other's surface.
+  // Without its fields, a body's inside is not searched for the other's surface; of a half-space's that does not count.
+  const bool counts = scene_.bodies[result.body_a].triangles && scene_.bodies[result.body_b].triangles;
   for (const int body : {result.body_a, result.body_b})
-    if (scene_.bodies[body].parts.empty())
+    if (counts && scene_.bodies[body].parts.empty())
       point.depth_error = std::max(point.depth_error, greatestDepth(scene_.bodies[body]) + error - point.depth);
   setTimes(result.intervals, point);
   if (point.depth > error) result.verdict = Verdict::kContact;

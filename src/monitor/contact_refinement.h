@@ -25,7 +25,8 @@ class ContactRefinement {
     SeparationMemory separation;
   };
 
-  /// Whether both bodies of a pair that trianglesDecide() have the solids in which depths are measured.
+  /// Whether both bodies of a pair that trianglesDecide() have the solids in which depths are measured, or one is a
+  /// half-space.
   static bool isPossible(const Scene& scene, const PlannedPair& pair);
 
   /// The pair must satisfy isPossible().

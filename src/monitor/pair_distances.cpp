@@ -187,6 +187,9 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
     const bool is_a = !body_a.triangles;
     found.normal_W =
         is_a ? Vector3d(X_WA.linear() * half_space->normal()) : Vector3d(X_WB.linear() * -half_space->normal());
+    const Vector3d& on_other_W = is_a ? found.p_B_W : found.p_A_W;
+    const Isometry3d& X_WF = is_a ? X_WA : X_WB;
+    if (half_space->distance(X_WF.inverse() * on_other_W) < 0.0) found.distance = 0.0;  // all of the body is below
     found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
     return true;
   }

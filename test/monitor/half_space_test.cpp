@@ -43,7 +43,9 @@ struct Fall {
     plane.geometry[0].X_BG = X_BG;
     std::vector<BodyDescription> bodies = {plane, body("thing", shape)};
     if (!ground_first) std::swap(bodies[0], bodies[1]);
-    scene = build(std::move(bodies), fine(0.02));
+    BodyOptions options = fine(0.02);
+    options.exact_depths = true;
+    scene = build(std::move(bodies), options);
     monitor = std::make_unique<Monitor>(scene, soft());
   }
 
@@ -170,6 +172,33 @@ TEST(HalfSpacePair, NeedsNoInside) {
   EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, 0.0201}))).verdict, Verdict::kClear);
   EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, 0.0199}))).verdict, Verdict::kContact);
   EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, -1.0}))).verdict, Verdict::kContact);
+}
+
+/// The deepest place of the surface, also where no point of the shell is.
+TEST(HalfSpacePair, DepthsAreExactIfRefined) {
+  Random random(7);
+  CycleRequest request;
+  request.refine = Refinement::kDeepest;
+  for (const Case& each : kCases) {
+    if (each.name == std::string("open mesh")) continue;  // has no solid to measure in
+    for (int trial = 0; trial < 100; ++trial) {
+      Fall fall(each.shape, anyPose(random, 2.0), trial % 2 == 0);
+      const Isometry3d X_BG = fall.scene->bodies[trial % 2].parts[0].X_BG, R = test::pose(random, kPi, 0.0);
+      const double low = each.depthAlong(R.linear().transpose() * -Vector3d::UnitZ());
+      const double depth = std::pow(10.0, uniform(random, -3.5, trial % 3 == 0 ? 0.5 : -1.5));
+      const auto above = [&](double height) { return X_BG * translation({3, -2, low + height}) * R; };
+      const PairResult result = fall.run(still(Isometry3d::Identity()), {above(0.05), above(-depth)}, request);
+      ASSERT_EQ(result.verdict, Verdict::kContact);
+      ASSERT_TRUE(result.refined);
+      EXPECT_NEAR(result.deepest.depth, depth, 6e-5) << each.name;
+      EXPECT_GE(result.deepest.depth + result.deepest.depth_error, depth - 1e-9) << each.name;
+      EXPECT_LT(result.deepest.depth_error, 2e-4) << each.name;
+      ASSERT_TRUE(result.first_touch);
+      EXPECT_NEAR(result.first_touch->enter, 0.1 * 0.05 / (0.05 + depth), 1e-3 * 0.1) << each.name;
+      const Vector3d up = (trial % 2 == 0 ? 1.0 : -1.0) * X_BG.linear().col(2);
+      EXPECT_LT((result.deepest.normal_W - up).norm(), 1e-9);
+    }
+  }
 }
 
 /// A motion error of a half-space grows with the distance from its body's origin.

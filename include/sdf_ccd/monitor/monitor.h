@@ -17,8 +17,8 @@ namespace sdf_ccd {
 enum class Refinement {
   kNone,
   /// On the triangles of both bodies: the greatest depth, its time and location, and the time at which the contact
-  /// begins. Only for pairs of closed bodies that consist of triangles, in a scene built with
-  /// BodyOptions::exact_depths; other pairs are not refined.
+  /// begins. Only for pairs of closed bodies that consist of triangles, or of such a body and a half-space, in a scene
+  /// built with BodyOptions::exact_depths; other pairs are not refined.
   kDeepest,
 };
 
