@@ -24,8 +24,12 @@ TEST(ElementOptions, PointsAndCellsFollowTheSizeWithinLimits) {
     EXPECT_LE(shell.spacing, slow.spacing);
     EXPECT_LE(slow.spacing, full.spacing);
     EXPECT_NEAR(slow.vertex_spacing, 0.4 * slow.spacing, 1e-12);
-    if (shell.spacing < options.shell.spacing) EXPECT_EQ(full.spacing, shell.spacing);
-    if (slow.spacing > 1.3e-3) EXPECT_NEAR(*fieldOptionsFor(options, area).cell_size, 1.2 * slow.spacing, 1e-12);
+    if (shell.spacing < options.shell.spacing) {
+      EXPECT_EQ(full.spacing, shell.spacing);
+    }
+    if (slow.spacing > 1.3e-3) {
+      EXPECT_NEAR(*fieldOptionsFor(options, area).cell_size, 1.2 * slow.spacing, 1e-12);
+    }
   }
   EXPECT_EQ(last, options.shell.spacing);
 }
