@@ -255,4 +255,12 @@ BoxTree::BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order
   if (order) *order = builder.order();
 }
 
+/// Boxes are relative to the origin.
+void BoxTree::displace(const BoxTree& original, const Vector3d& displacement) {
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    for (int k = 0; k < 3; ++k) triangles_[i].corners[k] = original.triangles_[i].corners[k] + displacement;
+  origin_ = original.origin_ + displacement;
+  ball_.center = original.ball_.center + displacement;
+}
+
 }  // namespace sdf_ccd

@@ -48,6 +48,9 @@ class BoxTree {
   /// @param order      if given, set to the index in `triangles` of each of the tree's triangles.
   explicit BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order = nullptr);
 
+  /// Turns a copy of another tree into that tree with all of its triangles displaced. Allocates nothing.
+  void displace(const BoxTree& original, const Vector3d& displacement);
+
   const RoundedTriangle& triangle(int i) const { return triangles_[i]; }
   std::size_t size() const { return triangles_.size(); }
 

@@ -38,16 +38,16 @@ void HalfSpacePatch::cover(const BoundingBall& ball, double travel) {
   const Vector3d u = half_space_.normal.unitOrthogonal(), v = half_space_.normal.cross(u);
   const auto onLattice = [&](const Vector3d& axis) { return size * std::round(axis.dot(ball.center) / size) * axis; };
   const Vector3d center = half_space_.offset * half_space_.normal + onLattice(u) + onLattice(v);
-  if (tree_ && size == size_ && center == center_) return;
-  center_ = center;
-  size_ = size;
   const double radius = 2.0 * kInside * size;  // of the circle through the corners
+  if (size != size_) {
+    const auto corner = [&](double angle) { return Vector3d(radius * (std::cos(angle) * u + std::sin(angle) * v)); };
+    const double third = 2.0 * M_PI / 3.0;
+    at_origin_.emplace(std::vector<RoundedTriangle>{{{corner(0.0), corner(third), corner(-third)}, 0.0}});
+    tree_ = at_origin_;
+    size_ = size;
+  }
+  tree_->displace(*at_origin_, center);
   deviation_ = offset_error_ + 16.0 * kEpsilon * (center.norm() + radius);
-  const auto corner = [&](double angle) {
-    return Vector3d(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
-  };
-  const double third = 2.0 * M_PI / 3.0;
-  tree_.emplace(std::vector<RoundedTriangle>{{{corner(0.0), corner(third), corner(-third)}, 0.0}});
 }
 
 }  // namespace sdf_ccd

@@ -23,8 +23,8 @@ class HalfSpacePatch {
   /// Signed distance [m].
   double distance(const Vector3d& p) const { return half_space_.normal.dot(p) - half_space_.offset; }
 
-  /// Makes the triangle, unless it is the last call's, for all points within ball.radius + travel of the ball's center.
-  /// It depends on the arguments alone.
+  /// Places the triangle below all points within ball.radius + travel of the ball's center. It depends on the arguments
+  /// alone. Memory is allocated only when the triangle's size changes, by a factor of two or more.
   void cover(const BoundingBall& ball, double travel);
 
   /// The triangle. cover() must have been called.
@@ -36,10 +36,10 @@ class HalfSpacePatch {
  private:
   HalfSpace half_space_;
   double offset_error_;
-  Vector3d center_ = Vector3d::Zero();  // of tree_'s triangle [m]
-  double size_ = 0.0;                   // of a cell of the lattice of centers [m]
+  double size_ = 0.0;  // of a cell of the lattice of centers [m]
   double deviation_ = 0.0;
-  std::optional<BoxTree> tree_;
+  std::optional<BoxTree> at_origin_;  // the triangle with its center at the frame's origin
+  std::optional<BoxTree> tree_;       // displaced to a center on the lattice
 };
 
 }  // namespace sdf_ccd

@@ -115,6 +115,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_exact = trianglesDecide(*scene_, scene_->pairs[i]);
   const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
+  if (touches && is_within && isOneInside(found, X_WA, X_WB)) found.distance = 0.0;
   // Bodies that touched may have separated before the end of the span; triangles tell that exactly. They can have moved
   // `gone` apart at most: a larger distance of the surfaces means that one body is inside the other.
   const double gone =
@@ -157,6 +158,15 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
   if (b.shell->size() > 0 && !a.parts.empty())
     is_within |= nearestOfShell(pair.body_b, pair.body_a, false, X_WA, X_WB, range, found);
   return is_within;
+}
+
+/// Whether the point of one body that is nearest to the other's surface is certainly inside the other.
+bool PairDistances::isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const {
+  const auto contains = [&](int body, const Isometry3d& X_WO, const Vector3d& p_W) {
+    const Body& outer = scene_->bodies[body];
+    return outer.triangles && !outer.inside_is_doubtful && outer.triangles->isInside(X_WO.inverse() * p_W);
+  };
+  return contains(found.body_a, X_WA, found.p_B_W) || contains(found.body_b, X_WB, found.p_A_W);
 }
 
 /// The body's triangles, or those of a half-space that are near the other body.

@@ -41,9 +41,9 @@ struct PairDistance {
   std::optional<ClosingGap> slab;  ///< along the normal, if a separating slab between the bodies is known
 };
 
-/// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest. If both bodies
-/// have triangles, the distance is exact up to Body::triangles' deviation; otherwise it is measured from the points of
-/// one body's shell to the other body's field, with the error of the field and the gap between points.
+/// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest. If
+/// triangles decide the pair, the distance is exact up to Body::triangles' deviation; otherwise it is measured from the
+/// points of one body's shell to the other body's field, with the error of the field and the gap between points.
 ///
 /// A pair that cannot have come within range since it was last measured costs some nanoseconds per cycle, another one
 /// some microseconds. Memory is allocated only if more pairs are near each other than ever before.
@@ -92,6 +92,7 @@ class PairDistances {
   bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
   bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                          PairDistance& found);
+  bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
   static const BoxTree& treeOf(const Body& body, const Body& other, const Isometry3d& X_BO, Pair& pair);
   bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
                       double range, PairDistance& found);

@@ -174,6 +174,26 @@ TEST_F(PairDistancesTest, WhatTouchesHasNone) {
   for (const PairDistance& each : cycle(inside, inside)) EXPECT_EQ(each.any.width, 0.0) << each.pair;
 }
 
+/// However near the surfaces, compared with the errors of fields.
+TEST_F(PairDistancesTest, WhatIsInsideAThinBodyTouchesIt) {
+  const auto sheet = test::meshShape(test::boxMesh({0.5, 0.3, 0.01})),
+             bead = test::meshShape(test::boxMesh({0.003, 0.003, 0.003}));
+  for (const bool has_ground : {false, true}) {
+    BodyDescription outer = has_ground ? test::body("outer", test::ground()) : test::body("outer", sheet);
+    const auto scene = test::build({outer, test::body("bead", bead)}, test::fine(0.05));
+    Monitor monitor(scene, test::soft());
+    PairDistances distances(scene);
+    const CycleMotion motion =
+        test::cycle(0.1, {test::still(Isometry3d::Identity()),
+                          {test::translation({0.1, 0.1, -0.005}), test::translation({0.12, 0.1, -0.005})}});
+    const CycleResult result = monitor.run(motion, {});
+    ASSERT_EQ(result.verdict, Verdict::kContact);
+    const PairDistance found = distances.update(motion, result, kRange, {}).at(0);
+    EXPECT_EQ(found.distance, 0.0) << has_ground;
+    EXPECT_EQ(found.any.width, 0.0);
+  }
+}
+
 TEST_F(PairDistancesTest, WhatHasJustLeftDoesNotTouch) {
   const double touching = 0.4 - 0.25 - 1e-6;  // the box touches the block
   CycleMotion motion;
