@@ -90,10 +90,14 @@ class Planner {
     if (pose != state.poses.end()) return checkPose(joint, pose->second, at);
     if (hasManyDegrees(joint)) refuse(joint, "has several degrees of freedom: give poses, not positions");
     const double position = robot_.position(joint, state.positions);
-    const auto own = state.positions.find(joint.name);
-    if (own != state.positions.end() && !(std::abs(own->second - position) <= kTolerance)) {
-      refuse(joint, "cannot be at " + numberText(own->second) + at + ": " + robot_.leader(joint).name + " has it at " +
-                        numberText(position));
+    if (joint.mimic && state.positions.count(joint.name) > 0) {
+      JointPositions others = state.positions;
+      others.erase(joint.name);
+      const double led = robot_.position(joint, others);
+      if (!(std::abs(position - led) <= kTolerance)) {
+        refuse(joint, "cannot be at " + numberText(position) + at + ": " + robot_.leader(joint).name + " has it at " +
+                          numberText(led));
+      }
     }
     const std::string exceeded = exceeds(joint, position);
     if (!exceeded.empty() && !rules_.allow_beyond_limits) refuse(joint, exceeded + at);

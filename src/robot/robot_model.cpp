@@ -55,12 +55,12 @@ double RobotModel::multiplier(const urdf::Joint& joint) const {
 }
 
 double RobotModel::position(const urdf::Joint& joint, const JointPositions& positions) const {
+  const auto found = positions.find(joint.name);
+  if (found != positions.end()) return found->second;
   if (joint.mimic) {
     const urdf::Joint& leader = *urdf_->joints_.at(joint.mimic->joint_name);
     return joint.mimic->multiplier * position(leader, positions) + joint.mimic->offset;
   }
-  const auto found = positions.find(joint.name);
-  if (found != positions.end()) return found->second;
   const bool limited = joint.limits && (joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC);
   return limited ? std::max(joint.limits->lower, std::min(0.0, joint.limits->upper)) : 0.0;
 }

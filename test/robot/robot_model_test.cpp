@@ -75,10 +75,13 @@ TEST(RobotModel, JointsThatAreNotNamedAreAtZeroOrTheNearestLimit) {
   EXPECT_TRUE(poseOf(robot, "tip", {}).translation().isApprox(tip, 1e-14));
 }
 
-TEST(RobotModel, MimicJointFollowsItsLeaderWhateverItIsSaidToBe) {
+/// As robot_state_publisher has it: a real gripper's fingers do not always move alike.
+TEST(RobotModel, MimicJointFollowsItsLeaderUnlessItIsNamed) {
   const RobotModel robot(kArm);
-  EXPECT_TRUE(poseOf(robot, "finger", {{"slide", 0.03}, {"grip", 9.0}})
+  EXPECT_TRUE(poseOf(robot, "finger", {{"slide", 0.03}, {"grip", 0.07}})
                   .isApprox(poseOf(robot, "finger", {{"slide", 0.03}}), 1e-15));
+  EXPECT_FALSE(poseOf(robot, "finger", {{"slide", 0.03}, {"grip", 0.05}})
+                   .isApprox(poseOf(robot, "finger", {{"slide", 0.03}}), 1e-3));
 }
 
 TEST(RobotModel, RefusesUnknownJointsAndPositionsThatAreNotFinite) {
@@ -351,6 +354,11 @@ TEST(RobotModel, MacrosThatWereNotExpandedAreNamed) {
   const std::vector<std::string> two = warnings("<gazebo><xacro:sensor/></gazebo>\n<xacro:include filename='b'/>");
   ASSERT_EQ(two.size(), 1u);
   EXPECT_NE(two[0].find("> is ignored with 1 other"), std::string::npos) << two[0];
+  EXPECT_EQ(
+      warnings("<link name='${prefix}b'/><joint name='j' type='fixed'><parent link='a'/><child link='${prefix}b'/>"
+               "</joint>"),
+      std::vector<std::string>{"the URDF's line 2: name=\"${prefix}b\" is taken as it is with 1 other: xacro has not "
+                               "expanded it, and what it stands for is missing"});
   EXPECT_TRUE(warnings("<xacro:property name='x' value='1'/><xacro:macro name='arm' params=''><xacro:leg/>"
                        "</xacro:macro>")
                   .empty());

@@ -68,6 +68,18 @@ TEST(JointFrames, OnlyJointsThatHaveAPositionMove) {
   EXPECT_FALSE(frames.knows("stranger"));
 }
 
+TEST(JointFrames, AMimicJointIsWhereItIsSaidToBe) {
+  const JointFrames frames(std::make_shared<const RobotModel>(kUrdf), "");
+  const tf2_msgs::TFMessage both = frames.moved(stateOf({{"turn", 0.7}, {"follow", 0.1}}), ros::Time(1.0));
+  ASSERT_EQ(childrenOf(both), "b d ");
+  EXPECT_NEAR(both.transforms[1].transform.rotation.z, std::sin(0.05), 1e-12);
+  const tf2_msgs::TFMessage alone = frames.moved(stateOf({{"follow", 0.1}}), ros::Time(1.0));
+  ASSERT_EQ(childrenOf(alone), "d ");
+  EXPECT_NEAR(alone.transforms[0].transform.rotation.z, std::sin(0.05), 1e-12);
+  const tf2_msgs::TFMessage leader = frames.moved(stateOf({{"turn", 0.7}}), ros::Time(1.0));
+  EXPECT_NEAR(leader.transforms[1].transform.rotation.z, std::sin(-0.45), 1e-12);
+}
+
 TEST(JointFrames, FixedLinksAreThoseThatAreWanted) {
   const JointFrames frames(std::make_shared<const RobotModel>(kUrdf), "");
   EXPECT_EQ(childrenOf(frames.fixed(ros::Time(1.0), [](const std::string&) { return true; })), "e ");

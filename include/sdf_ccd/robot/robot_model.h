@@ -54,7 +54,7 @@ class RobotModel {
   /// Pose of every link in the root's frame, in the order of links().
   ///
   /// Joints that are not named are at zero (or at the nearest limit), planar and floating ones at identity. Mimic
-  /// joints follow their leader, also if they are named. Named positions are used as they are, also beyond the joint's
+  /// joints that are not named follow their leader. Named positions are used as they are, also beyond the joint's
   /// limits. They are along the unit axis, whatever the length of the axis in the URDF.
   /// @param poses  of joints of any type; they take precedence over positions.
   /// @throws std::invalid_argument for a joint that does not exist, or a position or pose that is not finite.

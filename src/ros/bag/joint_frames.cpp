@@ -41,7 +41,7 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
     if (std::isfinite(joints.position[i]) && knows(joints.name[i])) positions[joints.name[i]] = joints.position[i];
   }
   return transforms(positions, stamp, [&](int, const urdf::Joint& joint) {
-    return hasPosition(joint) && positions.count(robot_->leader(joint).name) > 0;
+    return hasPosition(joint) && (positions.count(joint.name) > 0 || positions.count(robot_->leader(joint).name) > 0);
   });
 }
 

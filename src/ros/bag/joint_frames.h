@@ -27,8 +27,8 @@ class JointFrames {
   /// Transforms of the links on fixed joints whose frames are wanted.
   tf2_msgs::TFMessage fixed(const ros::Time& stamp, const std::function<bool(const std::string&)>& is_wanted) const;
 
-  /// Transforms of the links on the joints for which the message gives a position, and on those that mimic them. Names
-  /// that are not joints of the robot, and positions that are not finite, are ignored.
+  /// Transforms of the links on the joints for which the message gives a position, and on those that mimic them and
+  /// have none. Names that are not joints of the robot, and positions that are not finite, are ignored.
   tf2_msgs::TFMessage moved(const sensor_msgs::JointState& joints, const ros::Time& stamp) const;
 
  private:

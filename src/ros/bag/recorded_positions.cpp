@@ -12,6 +12,22 @@
 #include "ros/tf/tf_history.h"
 
 namespace sdf_ccd {
+namespace {
+
+/// Sets the positions of mimic joints that a message does not name, though it names their leaders.
+void followLeaders(const RobotModel& robot, const sensor_msgs::JointState& message,
+                   const std::vector<std::string>& joints, std::vector<double>& positions) {
+  JointPositions named;
+  for (std::size_t i = 0; i < std::min(message.name.size(), message.position.size()); ++i)
+    named[message.name[i]] = message.position[i];
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const urdf::Joint& joint = *robot.urdf().getJoint(joints[j]);
+    if (joint.mimic && named.count(joint.name) == 0 && named.count(robot.leader(joint).name) > 0)
+      positions[j] = robot.position(joint, named);
+  }
+}
+
+}  // namespace
 
 JointStates recordedPositions(const std::string& file, const RobotModel& robot, const std::string& topic,
                               std::string& warning) {
@@ -44,7 +60,9 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
         has_changed |= is_new || position != joints->position[i];
         position = joints->position[i];
       }
-      if (has_changed) states.positions.push_back(positions);
+      if (!has_changed) continue;
+      followLeaders(robot, *joints, states.joints, positions);
+      states.positions.push_back(positions);
     }
   });
   const std::string left_out = std::to_string(not_finite) + " joint states with positions that are not finite";
