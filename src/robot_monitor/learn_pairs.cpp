@@ -11,6 +11,7 @@
 #include "model/error_budget.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
+#include "robot/joint_motion.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
 #include "robot/unreachable_pairs.h"
@@ -24,14 +25,40 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kRound = 256;    // states between two updates of the undecided pairs
 constexpr std::size_t kAlways = 1000;  // random states that decide Always: each costs a search for contacts
 
+/// Of each joint the least and the greatest position.
+std::map<std::string, Range> rangesOf(const JointStates& states) {
+  std::map<std::string, Range> ranges;
+  for (const std::vector<double>& positions : states.positions) {
+    for (std::size_t j = 0; j < positions.size(); ++j) {
+      Range& range = ranges.try_emplace(states.joints[j], positions[j], positions[j]).first->second;
+      range = {std::min(range.first, positions[j]), std::max(range.second, positions[j])};
+    }
+  }
+  return ranges;
+}
+
 /// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
 class PairSorter {
  public:
-  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene) : robot_(robot), srdf_(srdf) {
-    for (const AllowedPair& pair : scene.allowed) {
-      if (pair.reason == kOutOfReach) out_of_reach_.insert(namePair(pair.body_a, pair.body_b));
+  /// @param recorded  states in which joints may be beyond the limits that keep pairs apart.
+  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene, const JointStates& recorded)
+      : robot_(robot), srdf_(srdf) {
+    const std::map<std::string, Range> ranges = rangesOf(recorded);
+    for (const UnreachablePair& pair : unreachablePairs(robot, scene.bodies, scene.allowed)) {
+      if (pair.X_AB) continue;
+      const NamePair names = namePair(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+      const auto isLeft = [&](const RobotModel::Slide& slide) { return isBeyond(slide, ranges); };
+      const auto left = std::find_if(pair.slides.begin(), pair.slides.end(), isLeft);
+      if (left == pair.slides.end()) {
+        out_of_reach_.insert(names);
+      } else {
+        beyond_limits_.insert(left->joint);
+      }
     }
   }
+
+  /// Joints that were recorded so far beyond their limits that pairs may meet which the limits keep apart.
+  const std::set<std::string>& beyondLimits() const { return beyond_limits_; }
 
   /// False if the pair needs no test; it is then added to `pairs`.
   bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
@@ -56,6 +83,16 @@ class PairSorter {
   }
 
  private:
+  /// Whether the joint, or the one that it mimics, was recorded beyond the range that is assumed.
+  bool isBeyond(const RobotModel::Slide& slide, const std::map<std::string, Range>& recorded) const {
+    const urdf::Joint& joint = *robot_.urdf().getJoint(slide.joint);
+    const std::string& named = recorded.count(joint.name) > 0 ? joint.name : robot_.leader(joint).name;
+    const auto range = recorded.find(named);
+    if (range == recorded.end()) return false;
+    const auto at = [&](double position) { return beyondReach(slide, robot_.position(joint, {{named, position}})); };
+    return !at(range->second.first).empty() || !at(range->second.second).empty();
+  }
+
   /// Whether the SRDF has a rule for the pair.
   bool isKnown(const std::string& a, const std::string& b) const {
     return !srdf_.whyDisabled(a, b).empty() || srdf_.isEnabled(a, b) || srdf_.isDisabledByDefault(a) ||
@@ -70,6 +107,7 @@ class PairSorter {
   const RobotModel& robot_;
   SrdfPairs srdf_;
   std::set<NamePair> out_of_reach_;
+  std::set<std::string> beyond_limits_;
 };
 
 BodyOptions sceneOptions(double max_error) {
@@ -201,7 +239,11 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   for (const std::string& joint : sampler.withoutLimits()) {
     pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");
   }
-  const PairSorter sorter(robot, srdf, description);
+  const PairSorter sorter(robot, srdf, description, options.recorded);
+  for (const std::string& joint : sorter.beyondLimits()) {
+    pairs.warnings.push_back("joint " + joint +
+                             " is recorded beyond its limits: pairs that these keep apart are tested, too");
+  }
   description.allowed.clear();
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < description.bodies.size(); ++j) {

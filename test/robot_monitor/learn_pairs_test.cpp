@@ -121,6 +121,29 @@ TEST(LearnPairs, ThreadsDoNotMatterAndSeedsDo) {
   EXPECT_NE(text(), all);
 }
 
+/// A joint that is recorded beyond its limits disproves what these prove; also one that follows it.
+TEST(LearnPairs, PairsThatTouchBeyondLimitsAreNotLeftOut) {
+  const auto slide = [](const std::string& child, const std::string& rest) {
+    return "<joint name='to_" + child + "' type='prismatic'><parent link='base'/><child link='" + child +
+           "'/><axis xyz='1 0 0'/>" + limits(-0.02, 0.02) + rest + "</joint>";
+  };
+  const std::string urdf = "<robot name='r'>" + sphere("base", 0.0) + sphere("m", 5.0) + joint("base", "m", "fixed") +
+                           sphere("a", 1.0) + slide("a", "") + sphere("b", -1.0) +
+                           slide("b", "<mimic joint='to_a' multiplier='-1'/>") + sphere("c", 0.0, 3.0) +
+                           joint("m", "c", "continuous", "<origin xyz='-5 0 0'/>") + "</robot>";
+  LearnOptions options = coarse();
+  options.states = 0;
+  options.recorded = {{"to_a"}, {{0.0}, {0.01}}};
+  EXPECT_TRUE(namesOf(learn(urdf, options).disabled, "Never").count("a b") > 0);
+  EXPECT_TRUE(learn(urdf, options).warnings.empty());
+  options.recorded.positions.push_back({-1.0});  // both at the origin
+  const LearnedPairs pairs = learn(urdf, options);
+  EXPECT_EQ(namesOf(pairs.disabled, "Never").count("a b"), 0u);
+  EXPECT_EQ(namesOf(pairs.touching).count("a b"), 1u);
+  ASSERT_FALSE(pairs.warnings.empty());
+  EXPECT_NE(pairs.warnings[0].find(" is recorded beyond its limits"), std::string::npos) << pairs.warnings[0];
+}
+
 TEST(LearnPairs, RecordedStatesCount) {
   LearnOptions options = coarse();
   options.states = 0;
