@@ -49,6 +49,15 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
+/// The first attribute that holds an expression of xacro; empty if none does.
+std::string unexpandedValue(const tinyxml2::XMLElement& element) {
+  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    const std::string value = attribute->Value();
+    if (value.find("${") != std::string::npos) return std::string(attribute->Name()) + "=\"" + value + "\"";
+  }
+  return {};
+}
+
 /// Other readers of URDF ignore macros of xacro that were not expanded, too; but the links that they stand for are
 /// missing. Definitions do no harm.
 void warnOfMacros(const tinyxml2::XMLDocument& document, std::vector<std::string>& warnings) {
@@ -66,9 +75,11 @@ void warnOfMacros(const tinyxml2::XMLDocument& document, std::vector<std::string
     left.push_back(element->NextSiblingElement());
     if (isDefinition(name)) continue;
     left.push_back(element->FirstChildElement());
-    if (name.rfind("xacro:", 0) != 0) continue;
-    if (++count == 1)
-      first = "line " + std::to_string(element->GetLineNum()) + ": <" + shownText(name) + "> is ignored";
+    const std::string value = unexpandedValue(*element);
+    if (name.rfind("xacro:", 0) != 0 && value.empty()) continue;
+    if (++count > 1) continue;
+    first = "line " + std::to_string(element->GetLineNum()) + ": " +
+            (value.empty() ? "<" + shownText(name) + "> is ignored" : shownText(value) + " is taken as it is");
   }
   if (count == 0) return;
   const std::string others = count == 1 ? "" : " with " + counted(count - 1, "other");

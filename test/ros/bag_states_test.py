@@ -38,6 +38,10 @@ class BagStatesTest(unittest.TestCase):
         self.assertIn('follows /arm/joint_states', self.says([others, mine]))
         self.assertIn('follows /arm/joint_states', self.says([mine, self.transform('camera')]))
 
+    def test_a_moving_base_does_not_move_the_arm(self):
+        mine = ('/joint_states', JointState(name=['elbow']))
+        self.assertIn('follows /joint_states', self.says([mine, self.transform('base')]))
+
     def test_transforms_need_none(self):
         mine = ('/joint_states', JointState(name=['elbow']))
         self.assertIn('needs no', self.says([mine, self.transform('/arm')]))

@@ -306,7 +306,10 @@ TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {
 }
 
 TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
-  write("ground.yaml", "world: [{name: ground, type: plane, xyz: [0, 0, -0.2]}]\ncache_directory: cache\n");
+  write("ground.yaml",  // two planes in one body, which only a field describes
+        "world: {collision_objects: [{id: ground, planes: [{coef: [0, 0, 1, 0.2]}, {coef: [0, 0, 1, 0.3]}],\n"
+        "  plane_poses: [{position: [0, 0, 0]}, {position: [0, 0, 0]}]}]}\n"
+        "cache_directory: cache\n");
   const ToolRun result = run("check-bag arm.bag --urdf " SDF_CCD_SOURCE_DIR
                              "/config/demo/arm.urdf --config ground.yaml --out made --max-error 0.001");
   EXPECT_EQ(result.exit_code, kDone) << result.error;
