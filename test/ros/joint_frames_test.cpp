@@ -70,14 +70,20 @@ TEST(JointFrames, OnlyJointsThatHaveAPositionMove) {
 
 TEST(JointFrames, AMimicJointIsWhereItIsSaidToBe) {
   const JointFrames frames(std::make_shared<const RobotModel>(kUrdf), "");
-  const tf2_msgs::TFMessage both = frames.moved(stateOf({{"turn", 0.7}, {"follow", 0.1}}), ros::Time(1.0));
-  ASSERT_EQ(childrenOf(both), "b d ");
-  EXPECT_NEAR(both.transforms[1].transform.rotation.z, std::sin(0.05), 1e-12);
-  const tf2_msgs::TFMessage alone = frames.moved(stateOf({{"follow", 0.1}}), ros::Time(1.0));
-  ASSERT_EQ(childrenOf(alone), "d ");
-  EXPECT_NEAR(alone.transforms[0].transform.rotation.z, std::sin(0.05), 1e-12);
-  const tf2_msgs::TFMessage leader = frames.moved(stateOf({{"turn", 0.7}}), ros::Time(1.0));
-  EXPECT_NEAR(leader.transforms[1].transform.rotation.z, std::sin(-0.45), 1e-12);
+  const auto rotationOfLast = [&](const std::map<std::string, double>& positions) {
+    const tf2_msgs::TFMessage message = frames.moved(stateOf(positions), ros::Time(1.0));
+    EXPECT_EQ(message.transforms.back().child_frame_id, "d");
+    return Matrix3d(toTfPose({}, message.transforms.back().transform).isometry().linear());
+  };
+  const Matrix3d at_zero = rotationOfLast({{"follow", 0.0}});
+  const auto angle = [&](const std::map<std::string, double>& positions) {
+    const Matrix3d turned = at_zero.transpose() * rotationOfLast(positions);
+    return std::atan2(turned(1, 0), turned(0, 0));
+  };
+  EXPECT_NEAR(angle({{"turn", 0.7}, {"follow", 0.1}}), 0.1, 1e-12);
+  EXPECT_NEAR(angle({{"follow", 0.1}}), 0.1, 1e-12);
+  EXPECT_NEAR(angle({{"turn", 0.7}}), -0.9, 1e-12);
+  EXPECT_EQ(childrenOf(frames.moved(stateOf({{"follow", 0.1}}), ros::Time(1.0))), "d ");
 }
 
 TEST(JointFrames, FixedLinksAreThoseThatAreWanted) {
