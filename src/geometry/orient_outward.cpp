@@ -78,11 +78,15 @@ bool flippedMeetsOthers(const std::vector<Patch>& patches, const std::vector<Clo
   return found;
 }
 
+bool isFlippedClosed(const Patch& patch, const TriangleMesh& drawn, const TriangleMesh& flipped) {
+  const std::int32_t first = patch.triangles.front();
+  return patch.closed && drawn.triangles[first] != flipped.triangles[first];
+}
+
 /// Whether a flipped patch touches itself: it may be two parts, joined where faces were tessellated separately.
 bool flippedTouchesItself(const std::vector<Patch>& patches, const TriangleMesh& drawn, const TriangleMesh& flipped) {
   return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
-    const std::int32_t first = patch.triangles.front();
-    if (!patch.closed || drawn.triangles[first] == flipped.triangles[first]) return false;
+    if (!isFlippedClosed(patch, drawn, flipped)) return false;
     const TriangleMesh part = extract(flipped, patch);
     return touchesItself(part, TriangleTree(part));
   });
@@ -121,9 +125,7 @@ bool flippedMayBeCavity(const std::vector<Patch>& patches, const TriangleMesh& d
     if (!patch.closed) open.extend(boxOf(drawn, patch));
   std::optional<TriangleTree> tree;
   return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
-    const std::int32_t first = patch.triangles.front();
-    if (!patch.closed || drawn.triangles[first] == flipped.triangles[first]) return false;
-    if (!open.contains(boxOf(drawn, patch))) return false;
+    if (!isFlippedClosed(patch, drawn, flipped) || !open.contains(boxOf(drawn, patch))) return false;
     if (!tree) tree.emplace(drawn);
     return !isSeen(flipped, patch, *tree, stepFrom(drawn));
   });

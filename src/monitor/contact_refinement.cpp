@@ -68,7 +68,7 @@ void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, do
 void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfaces, PairResult& result) const {
   const RelativeMotion& motion = surfaces.motion();
   std::vector<Interval>& intervals = result.intervals;
-  if (touch.enter == motion.motion(0).t_start || surfaces.isOutside(motion.start())) {
+  if (touch.enter == motion.motion(0).t_start || surfaces.containment(motion.start()).excluded) {
     result.first_touch = touch;
     const auto isBefore = [&](const Interval& interval) { return interval.exit < touch.enter; };
     intervals.erase(std::remove_if(intervals.begin(), intervals.end(), isBefore), intervals.end());

@@ -321,10 +321,11 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
     answer = surfaces_->decide(motion_error_, memory_->separation);
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
-    outside_ = outside_ || surfaces_->isOutside(surfaces_->motion().end());
     if (!outside_) {
-      answer.crossing = surfaces_->containedPoint();
-      return false;
+      const SurfacePair::Containment found = surfaces_->containment(motion.end());
+      outside_ = found.excluded;
+      if (found.p_F) answer.crossing = surfaces_->contactInside(*found.p_F);
+      if (!outside_) return false;
     }
   }
   setClear(clearance, result);

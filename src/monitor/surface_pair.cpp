@@ -93,16 +93,14 @@ double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
   const BodyTriangles& p = *shell_->triangles;
   const double margin = motion_error + error();
-  const BoxTree& closed_f = half_space_ ? treeF() : field_->triangles->closedTree();
-  if (&closed_f != &treeF() || p.closed) {
-    // Apart including the caps that close openings: nothing has entered through an opening.
-    const Answer closed = decideBy(closed_f, p.closedTree(), margin, closed_witness_, memory);
-    if (closed.state == SeparationState::kApart) return closed;
-    Answer open = decideBy(treeF(), p.tree, margin, witness_, memory);
-    if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // perhaps inside
-    return open;
-  }
-  return decideBy(treeF(), p.tree, margin, witness_, memory);
+  const bool has_caps = p.closed || (!half_space_ && field_->triangles->closed);
+  if (!has_caps) return decideBy(treeF(), p.tree, margin, witness_, memory);
+  // Apart including the caps that close openings: nothing has entered through an opening.
+  const Answer closed = decideBy(closedTreeF(), p.closedTree(), margin, closed_witness_, memory);
+  if (closed.state == SeparationState::kApart) return closed;
+  Answer open = decideBy(treeF(), p.tree, margin, witness_, memory);
+  if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // perhaps inside
+  return open;
 }
 
 SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, double margin, SeparationWitness& witness,
@@ -242,9 +240,7 @@ SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const 
   return {excluded, p_F};
 }
 
-std::optional<ContactPoint> SurfacePair::containedPoint() const {
-  const std::optional<Vector3d> p_F = containment(motion_.end()).p_F;
-  if (!p_F) return std::nullopt;
+ContactPoint SurfacePair::contactInside(const Vector3d& p_F) const {
   const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
   const Isometry3d X_WF = last.X_WF.pose(1.0);
   const Vector3d way = half_space_ ? Vector3d(X_WF.linear() * half_space_->normal())
@@ -252,7 +248,7 @@ std::optional<ContactPoint> SurfacePair::containedPoint() const {
   ContactPoint contact;
   contact.enter = motion_.motion(0).t_start;
   contact.time = contact.exit = last.t_end;
-  contact.p_W = X_WF * *p_F;
+  contact.p_W = X_WF * p_F;
   contact.normal_W = fromAToB(way.norm() > 0.0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitZ()));
   return contact;
 }

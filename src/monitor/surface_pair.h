@@ -64,13 +64,16 @@ class SurfacePair {
   /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
   std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
 
-  /// Whether neither body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are
-  /// apart. False also if that is not known.
-  bool isOutside(const Isometry3d& X_FP) const { return containment(X_FP).excluded; }
+  /// Whether a body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are apart.
+  struct Containment {
+    bool excluded;                ///< neither has; false also if that is not known
+    std::optional<Vector3d> p_F;  ///< certainly inside both bodies, or on the surface of one; empty if not known
+  };
+  Containment containment(const Isometry3d& X_FP) const;
 
-  /// A point at which one body is certainly inside the other, at the motion's end. The surfaces must be apart during
-  /// the whole motion: so one is inside all the time. Empty if that is not known.
-  std::optional<ContactPoint> containedPoint() const;
+  /// The contact at a point that containment() gives at the motion's end. The surfaces must be apart during the whole
+  /// motion: so one body is inside all the time.
+  ContactPoint contactInside(const Vector3d& p_F) const;
 
   /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
   /// (they are apart, and seen from the outside) or CONTACT (they cross).
@@ -78,13 +81,9 @@ class SurfacePair {
   bool isInsideDoubtful() const { return !half_space_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
 
  private:
-  struct Containment {
-    bool excluded;                ///< see isOutside()
-    std::optional<Vector3d> p_F;  ///< certainly inside both bodies, or on the surface of one
-  };
-  Containment containment(const Isometry3d& X_FP) const;
   double error() const { return deviation_ + (half_space_ ? half_space_->deviation() : 0.0); }
   const BoxTree& treeF() const { return half_space_ ? half_space_->tree() : field_->triangles->tree; }
+  const BoxTree& closedTreeF() const { return half_space_ ? half_space_->tree() : field_->triangles->closedTree(); }
   Vector3d fromAToB(const Vector3d& from_f_to_p) const { return f_is_a_ ? from_f_to_p : Vector3d(-from_f_to_p); }
 
   Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
