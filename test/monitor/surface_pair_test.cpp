@@ -4,7 +4,7 @@
 
 #include "body/body_triangles.h"
 #include "geometry/mesh_edges.h"
-#include "monitor/scene_case.h"
+#include "monitor/surface_pair_case.h"
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
@@ -12,18 +12,6 @@ namespace sdf_ccd {
 namespace {
 
 using namespace test;
-
-/// Shells with points centimetres apart.
-BodyOptions coarse() {
-  BodyOptions options = fine(0.02);
-  options.field.cells = 16;
-  return options;
-}
-
-PairResult at(Monitor& monitor, const Isometry3d& X) {
-  monitor.reset();
-  return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X)}), {}).pairs[0];
-}
 
 /// Independent of fields and shells: boxes, balls, cylinders and meshes.
 TEST(SurfacePair, TellsATenthOfAMillimetre) {
@@ -241,99 +229,6 @@ TEST(SurfacePair, NothingTunnels) {
                                                          translation(aside - Vector3d(0, 0, 0.4)) * turn}}),
                                             {});
     EXPECT_EQ(result.verdict, Verdict::kContact) << i;
-  }
-}
-
-/// A body wholly inside touches no surface, and yet is in contact (design §3.15), also without a previous cycle; in a
-/// cavity it is not.
-TEST(SurfacePair, WhatIsWhollyInsideIsAContact) {
-  const TriangleMesh cavity = flipped(boxMesh({0.1, 0.1, 0.1}));
-  const auto solid = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))},
-                           coarse()),
-             hollow = build({body("block", meshShape(merged(boxMesh({0.2, 0.2, 0.2}), cavity))),
-                             body("bead", Primitive(Sphere{0.02}))},
-                            coarse());
-  Monitor in_solid(solid, soft()), in_hollow(hollow, soft());
-  EXPECT_EQ(at(in_solid, translation({0.01, 0, 0})).verdict, Verdict::kContact);
-  EXPECT_EQ(at(in_hollow, translation({0.01, 0, 0})).verdict, Verdict::kClear);
-  EXPECT_EQ(at(in_hollow, translation({0.15, 0, 0})).verdict, Verdict::kContact);
-  EXPECT_EQ(at(in_hollow, translation({0.25, 0, 0})).verdict, Verdict::kClear);
-  // One of two parts is inside.
-  BodyDescription two = body("two", Primitive(Sphere{0.02}));
-  two.geometry.push_back({Primitive(Sphere{0.02}), translation({0.5, 0, 0}), "other"});
-  const auto parts = build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), two}, coarse());
-  Monitor in_part(parts, soft());
-  EXPECT_EQ(at(in_part, translation({0, 0, 0})).verdict, Verdict::kContact);
-  EXPECT_EQ(at(in_part, translation({-0.5, 0, 0})).verdict, Verdict::kContact);
-  EXPECT_EQ(at(in_part, translation({0.25, 0, 0})).verdict, Verdict::kClear);
-}
-
-/// Inside is known by the surfaces also where fields are too coarse to tell, and for the whole cycle; with contacts or
-/// without.
-TEST(SurfacePair, WhatIsInsideByLessThanTheFieldsErrorIsAContact) {
-  BodyOptions options = coarse();
-  options.field.cells = 4;
-  const TriangleMesh wall = boxMesh({1.0, 1.0, 0.004});
-  BodyDescription shelf = body("shelf", meshShape(wall));
-  shelf.geometry.push_back({meshShape(wall), translation({0, 0, 1}), "upper"});
-  const auto scene = build({shelf, body("bead", meshShape(boxMesh({0.001, 0.001, 0.001})))}, options);
-  for (const bool wants_contacts : {false, true}) {
-    CycleRequest request;
-    request.contacts = request.wrenches = wants_contacts;
-    for (const double z : {0.0, 0.0029, 0.998}) {
-      Monitor monitor(scene, soft());
-      const auto still_shelf = still(translation({0, 2, 0}));
-      const std::vector<Isometry3d> bead = {translation({0.1, 2, z}), translation({0.2, 2.1, z})};
-      const PairResult result = monitor.run(cycle(0.1, {still_shelf, bead}), request).pairs.front();
-      ASSERT_EQ(result.verdict, Verdict::kContact) << z;
-      ASSERT_EQ(result.intervals.size(), 1u);
-      EXPECT_EQ(result.intervals[0].enter, 0.0);
-      EXPECT_EQ(result.intervals[0].exit, 0.1);
-      const double then = 0.1 + result.deepest.time;  // the bead's x
-      EXPECT_LE((result.deepest.p_W - Vector3d(then, then + 1.9, z)).cwiseAbs().maxCoeff(), 0.0011) << "in the bead";
-    }
-  }
-}
-
-/// Where no point feels that, the contact is the point that proves it; within the span.
-TEST(SurfacePair, WhatNoPointFeelsInsideHasAPlaceAndANormal) {
-  const TriangleMesh wall = boxMesh({1.0, 1.0, 0.004});
-  BodyOptions options = coarse();
-  options.field.cells = 4;
-  const auto scene = build({body("walls", meshShape(merged(wall, translated(wall, {0, 0, 1})))),
-                            body("bead", meshShape(boxMesh({0.001, 0.001, 0.001})))},
-                           options);
-  Monitor monitor(scene, soft());
-  const Vector3d place(0.1, 2, 1.001);
-  CycleMotion motion = cycle(0.1, {still(translation({0, 2, 0}), 3), still(translation(place), 3)});
-  for (const std::size_t first : {0, 1}) {
-    motion.spans = {{first, 2}};
-    monitor.reset();
-    const PairResult& result = monitor.run(motion, {}).pairs.front();
-    ASSERT_EQ(result.verdict, Verdict::kContact);
-    ASSERT_EQ(result.intervals.size(), 1u);
-    EXPECT_EQ(result.intervals[0].enter, motion.times[first]);
-    EXPECT_EQ(result.intervals[0].exit, 0.1);
-    EXPECT_LE((result.deepest.p_W - place).cwiseAbs().maxCoeff(), 0.0011);
-    EXPECT_NEAR(result.deepest.normal_W.norm(), 1.0, 1e-9);
-    EXPECT_EQ(result.deepest.enter, motion.times[first]);
-    EXPECT_EQ(result.peaks.size(), 1u);
-  }
-}
-
-/// A bead that enters a solid through its surface within one cycle is in contact, and stays so.
-TEST(SurfacePair, WhatGoesInStaysIn) {
-  const auto scene =
-      build({body("block", meshShape(boxMesh({0.2, 0.2, 0.2}))), body("bead", Primitive(Sphere{0.02}))}, coarse());
-  Monitor monitor(scene, soft());
-  Vector3d p(0.3, 0, 0);
-  for (const double x : {0.25, 0.0, 0.01, 0.02, 0.3, 0.32}) {
-    const Vector3d q(x, 0, 0);
-    const Verdict verdict =
-        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation(p), translation(q)}}), {}).verdict;
-    const bool outside = x > 0.22 && p.x() > 0.22;
-    EXPECT_EQ(verdict, outside ? Verdict::kClear : Verdict::kContact) << x;
-    p = q;
   }
 }
 
