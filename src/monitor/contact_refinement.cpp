@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "half_space_patch.h"
+#include "body_half_space.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
 #include "pair_result.h"

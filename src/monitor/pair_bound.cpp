@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "half_space_patch.h"
+#include "body_half_space.h"
 #include "shell/contact_gap.h"
 
 namespace sdf_ccd {

@@ -184,6 +184,12 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   if (surfaces_) {
     if (clearBySurfaces(by_surfaces, result)) return;
     if (by_surfaces.crossing && !request.wantsContacts()) return setCrossing(*by_surfaces.crossing, result);
+    // Fields tell no more of a half-space than its surface does.
+    if (by_surfaces.is_near && surfaces_->isWithHalfSpace() && !request.wantsContacts()) {
+      forgetClearance();
+      result.verdict = Verdict::kUncertain;
+      return setSurfaceError(true, surface_error, result);
+    }
     setRoles(bodies, result.span);
     motion_error_ += given_error;
     setError(bound_, kRootTolerance * travel_, result);

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "body/body_triangles.h"
+#include "monitor/body_half_space.h"
 #include "monitor/contact_tracker.h"
 #include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
+#include "query/plane_separation.h"
 #include "query/shell_distance.h"
 #include "query/surface_distance.h"
 
@@ -169,20 +171,36 @@ bool PairDistances::isOneInside(const PairDistance& found, const Isometry3d& X_W
   return contains(found.body_a, X_WA, found.p_B_W) || contains(found.body_b, X_WB, found.p_A_W);
 }
 
-/// The body's triangles, or those of a half-space that are near the other body.
-const BoxTree& PairDistances::treeOf(const Body& body, const Body& other, const Isometry3d& X_BO, Pair& pair) {
-  if (body.triangles) return body.triangles->tree;
-  if (!pair.half_space) pair.half_space = std::make_unique<HalfSpacePatch>(body);
-  pair.half_space->cover({X_BO * other.ball.center, other.ball.radius}, 0.0);
-  return pair.half_space->tree();
+/// The lowest point of a body above a half-space, and its foot on the plane.
+bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
+                                   double range, PairDistance& found) {
+  const PlannedPair& pair = scene_->pairs[i];
+  const BodyHalfSpace plane = halfSpaceOf(scene_->bodies[plane_is_a ? pair.body_a : pair.body_b]);
+  const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
+  const double deviation = verdictBound(*scene_, pair).total() + plane.deviation;
+  const double error = deviation + kTriangleError * surface.ball().radius;
+  const LowestPoint lowest = lowestPoint(plane.half_space, surface, relativePose(X_WF, X_WP),
+                                         kTriangleError * surface.ball().radius, pairs_[i].witness, memory_);
+  if (!(lowest.height <= range + error)) return false;
+  const Vector3d up_W = X_WF.linear() * plane.half_space.normal;
+  const Vector3d on_p = X_WF * lowest.p_F, on_f = on_p - lowest.height * up_W;
+  found.distance = std::max(0.0, lowest.height);
+  found.error = error;
+  found.p_A_W = plane_is_a ? on_f : on_p;
+  found.p_B_W = plane_is_a ? on_p : on_f;
+  found.normal_W = plane_is_a ? up_W : Vector3d(-up_W);
+  found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
+  return true;
 }
 
 bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                                       PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
+  if (!body_a.triangles) return nearestOfPlane(i, true, X_WA, X_WB, range, found);
+  if (!body_b.triangles) return nearestOfPlane(i, false, X_WB, X_WA, range, found);
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
-  const BoxTree &a = treeOf(body_a, body_b, X_AB, pairs_[i]), &b = treeOf(body_b, body_a, X_AB.inverse(), pairs_[i]);
+  const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
   const double deviation = verdictBound(*scene_, pair).total();
   const double error = deviation + kTriangleError * (a.ball().radius + b.ball().radius);
   const auto nearest = surfaceDistance(a, b, X_AB, range + error, pairs_[i].witness, memory_);
@@ -193,16 +211,6 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   found.p_B_W = X_WA * nearest->q_A;
   const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);
   if (nearest->distance > 0.0) found.normal_W = displacement / nearest->distance;
-  if (const auto& half_space = pairs_[i].half_space) {  // below all of the other body, exactly along its normal
-    const bool is_a = !body_a.triangles;
-    found.normal_W =
-        is_a ? Vector3d(X_WA.linear() * half_space->normal()) : Vector3d(X_WB.linear() * -half_space->normal());
-    const Vector3d& on_other_W = is_a ? found.p_B_W : found.p_A_W;
-    const Isometry3d& X_WF = is_a ? X_WA : X_WB;
-    if (half_space->distance(X_WF.inverse() * on_other_W) < 0.0) found.distance = 0.0;  // all of the body is below
-    found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
-    return true;
-  }
   const auto slab = slabBetween(a, b, X_AB, *nearest);
   if (slab && *slab > deviation) found.slab = ClosingGap{*slab - deviation, 0.0, 0.0};
   return true;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "monitor/half_space_patch.h"
 #include "query/separation.h"
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -81,8 +80,7 @@ class PairDistances {
     double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
     Isometry3d X_FP = Isometry3d::Identity();
     SeparationWitness witness;
-    std::unique_ptr<HalfSpacePatch> half_space;  // set if one body is one, and the pair was near
-    PairDistance last;                           // valid if is_near
+    PairDistance last;  // valid if is_near
     bool is_near = false;
   };
 
@@ -93,7 +91,8 @@ class PairDistances {
   bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                          PairDistance& found);
   bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
-  static const BoxTree& treeOf(const Body& body, const Body& other, const Isometry3d& X_BO, Pair& pair);
+  bool nearestOfPlane(std::size_t pair, bool plane_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP, double range,
+                      PairDistance& found);
   bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
                       double range, PairDistance& found);
 

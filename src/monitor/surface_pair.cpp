@@ -7,6 +7,7 @@
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
+#include "query/plane_separation.h"
 
 namespace sdf_ccd {
 namespace {
@@ -54,17 +55,6 @@ bool isFirstF(const Body& a, const Body& b) {
   return a.triangles && b.triangles ? a.ball.radius >= b.ball.radius : !a.triangles;
 }
 
-/// Options to look closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer
-/// one costs nothing on average; what stays that near, as a part that slides on a table, takes a few tests more in each
-/// cycle.
-SeparationOptions finer(SeparationOptions options, int tests) {
-  constexpr double kFiner = 0.02;
-  constexpr int kMaxTests = 2000;
-  options.resolution *= kFiner;
-  options.max_tests = std::min(kMaxTests, options.max_tests - tests);
-  return options;
-}
-
 }  // namespace
 
 SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution)
@@ -74,40 +64,72 @@ SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double res
       shell_(&scene.bodies[motion_.p()]),
       deviation_(verdictBound(scene, pair).total()),
       resolution_(resolution) {
-  if (!field_->triangles) half_space_.emplace(*field_);
+  if (!field_->triangles) plane_ = halfSpaceOf(*field_);
 }
 
 void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
                             std::vector<RelativeMotionBounds>& bounds) {
   motion_.take(bodies, span, bounds);
-  if (half_space_) half_space_->cover({motion_.start() * shell_->ball.center, shell_->ball.radius}, motion_.travel());
 }
 
 double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
   const Vector3d center_F = X_FP * shell_->ball.center;
-  const double to_f =
-      half_space_ ? half_space_->distance(center_F) : (center_F - field_->ball.center).norm() - field_->ball.radius;
+  const double to_f = plane_ ? plane_->half_space.normal.dot(center_F) - plane_->half_space.offset
+                             : (center_F - field_->ball.center).norm() - field_->ball.radius;
   return to_f - shell_->ball.radius;
 }
 
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
-  const BodyTriangles& p = *shell_->triangles;
   const double margin = motion_error + error();
-  const bool has_caps = p.closed || (!half_space_ && field_->triangles->closed);
-  if (!has_caps) return decideBy(treeF(), p.tree, margin, witness_, memory);
+  if (plane_) {
+    Answer answer = decideBy(false, margin, memory);
+    if (answer.crossing && isBelowThroughout(margin, memory)) {
+      answer.crossing->enter = motion_.motion(0).t_start;
+      answer.crossing->exit = motion_.motion(motion_.steps() - 1).t_end;
+    }
+    return answer;
+  }
+  const bool has_caps = field_->triangles->closed || shell_->triangles->closed;
+  if (!has_caps) return decideBy(false, margin, memory);
   // Apart including the caps that close openings: nothing has entered through an opening.
-  const Answer closed = decideBy(closedTreeF(), p.closedTree(), margin, closed_witness_, memory);
+  const Answer closed = decideBy(true, margin, memory);
   if (closed.state == SeparationState::kApart) return closed;
-  Answer open = decideBy(treeF(), p.tree, margin, witness_, memory);
+  Answer open = decideBy(false, margin, memory);
   if (open.state == SeparationState::kApart) open.state = SeparationState::kOpen;  // perhaps inside
   return open;
 }
 
-SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, double margin, SeparationWitness& witness,
-                                          SeparationMemory& memory) const {
+Separation SurfacePair::test(bool closed, const TwoBodyMotion& motion, const SeparationOptions& options,
+                             SeparationMemory& memory) {
+  SeparationWitness& witness = closed ? closed_witness_ : witness_;
+  const BodyTriangles& p = *shell_->triangles;
+  if (plane_) return planeSeparation(plane_->half_space, p.tree, motion, options, witness, memory);
+  const BodyTriangles& f = *field_->triangles;
+  return closed ? separation(f.closedTree(), p.closedTree(), motion, options, witness, memory)
+                : separation(f.tree, p.tree, motion, options, witness, memory);
+}
+
+/// Looks closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer one costs
+/// nothing on average; what stays that near, as a part that slides on a table, takes a few tests more in each cycle.
+Separation SurfacePair::testCloser(bool closed, const TwoBodyMotion& motion, SeparationOptions options,
+                                   SeparationMemory& memory) {
+  constexpr double kFiner = 0.02;
+  constexpr int kMaxTests = 2000;
+  Separation found = test(closed, motion, options, memory);
+  if (plane_ || !found.is_near || found.tests >= options.max_tests) return found;
+  options.resolution *= kFiner;
+  options.max_tests = std::min(kMaxTests, options.max_tests - found.tests);
+  const Separation closer = test(closed, motion, options, memory);
+  const int tests = found.tests + closer.tests;
+  if (closer.state != SeparationState::kOpen) found = closer;
+  found.tests = tests;
+  return found;
+}
+
+SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, SeparationMemory& memory) {
   Answer answer;
   double distance = -std::numeric_limits<double>::infinity();
-  bool apart = true;
+  bool apart = true, all_near = true;
   SeparationOptions options;
   options.margin = margin;
   options.resolution = resolution_;
@@ -117,16 +139,7 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
       distance -= travel;
       continue;
     }
-    const auto test = [&](const SeparationOptions& with) {
-      return separation(f, p, motion_.motion(step), with, witness, memory);
-    };
-    Separation found = test(options);
-    if (found.is_near && found.tests < options.max_tests) {
-      const int tests = found.tests;
-      const Separation closer = test(finer(options, tests));
-      if (closer.state != SeparationState::kOpen) found = closer;
-      found.tests = tests + closer.tests;
-    }
+    const Separation found = testCloser(closed, motion_.motion(step), options, memory);
     if (found.state == SeparationState::kCrossing) {
       answer.state = found.state;
       answer.crossing = contactAt(found, step, found.s);
@@ -135,15 +148,33 @@ SurfacePair::Answer SurfacePair::decideBy(const BoxTree& f, const BoxTree& p, do
     const bool now = found.state == SeparationState::kApart;
     // A motion of many undecided steps takes no longer than a single one.
     if (!now) options.max_tests -= found.tests;
-    answer.is_near |= found.is_near;
-    if (options.max_tests <= 0) return answer;
+    all_near &= now || found.is_near;
+    answer.is_near = plane_ ? all_near : answer.is_near || found.is_near;
     distance = now ? found.distance : -std::numeric_limits<double>::infinity();
     apart &= now;
+    if (options.max_tests > 0) continue;
+    answer.is_near &= !plane_;
+    return answer;
   }
   if (!apart) return answer;
   answer.state = SeparationState::kApart;
   answer.clearance = distance - error();
   return answer;
+}
+
+/// Whether, in each step, what is lowest at its start stays below the plane.
+bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
+  const HalfSpace& plane = plane_->half_space;
+  for (std::size_t step = 0; step < motion_.steps(); ++step) {
+    const TwoBodyMotion motion = motion_.motion(step);
+    const auto X_FP = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
+    const Isometry3d X_start = X_FP(0.0);
+    const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);
+    const double at_end = plane.normal.dot(X_FP(1.0) * (X_start.inverse() * lowest.p_F)) - plane.offset;
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+    if (!(std::max(lowest.height, at_end) + motion.acceleration / 8.0 + rounding < -margin)) return false;
+  }
+  return true;
 }
 
 /// @param share  of the step at which the crossing was found.
@@ -153,10 +184,10 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step, d
   ContactPoint contact;
   contact.time = contact.enter = contact.exit = timeAt(motion, share);
   contact.p_W = X_WF * found.p_A;
-  Vector3d normal = X_WF.linear() * (half_space_ ? half_space_->normal() : found.normal_A);
+  Vector3d normal = X_WF.linear() * found.normal_A;
   // A single triangle does not tell the side: take the one where the other ball's centre lies.
   const Vector3d to_p = X_WP * shell_->ball.center - contact.p_W;
-  if (!half_space_ && !(normal.dot(to_p) > 0.0)) normal = -normal;
+  if (!plane_ && !(normal.dot(to_p) > 0.0)) normal = -normal;
   contact.normal_W = fromAToB(normal);
   return contact;
 }
@@ -173,7 +204,7 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
   const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
   const double length = end - start;
   const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
-  return separation(treeF(), shell_->triangles->tree, part, options, witness_, memory);
+  return test(false, part, options, memory);
 }
 
 std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
@@ -226,14 +257,8 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
 }
 
 SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const {
+  if (plane_) return {true, std::nullopt};
   std::optional<Vector3d> p_F, p_P;
-  if (half_space_) {
-    for (const std::vector<Vector3d>& corners : shell_->triangles->components) {
-      const Vector3d corner_F = X_FP * corners.front();
-      if (!(half_space_->distance(corner_F) > 0.0)) return {false, corner_F};
-    }
-    return {true, std::nullopt};
-  }
   const bool excluded =
       componentsAreOutside(*shell_, *field_, X_FP, p_F) && componentsAreOutside(*field_, *shell_, X_FP.inverse(), p_P);
   if (p_P) p_F = X_FP * *p_P;
@@ -243,8 +268,7 @@ SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const 
 ContactPoint SurfacePair::contactInside(const Vector3d& p_F) const {
   const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
   const Isometry3d X_WF = last.X_WF.pose(1.0);
-  const Vector3d way = half_space_ ? Vector3d(X_WF.linear() * half_space_->normal())
-                                   : Vector3d(last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center);
+  const Vector3d way = last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center;
   ContactPoint contact;
   contact.enter = motion_.motion(0).t_start;
   contact.time = contact.exit = last.t_end;

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "body/body_triangles.h"
-#include "half_space_patch.h"
+#include "body_half_space.h"
 #include "query/separation.h"
 #include "relative_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -24,6 +24,8 @@ class SurfacePair {
 
   /// Of the smaller body relative to the larger one, or to the half-space.
   const RelativeMotion& motion() const { return motion_; }
+
+  bool isWithHalfSpace() const { return plane_.has_value(); }
 
   /// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
   double deviation() const { return deviation_; }
@@ -50,7 +52,8 @@ class SurfacePair {
     SeparationState state = SeparationState::kOpen;
     double clearance = 0.0;                ///< if apart: lower bound of the distance at the motion's end [m]
     std::optional<ContactPoint> crossing;  ///< if crossing
-    bool is_near = false;  ///< if open: the distance falls to at most all errors plus twice the resolution
+    bool is_near = false;  ///< if open: the distance falls to at most all errors plus twice the resolution; against a
+                           ///< half-space, no point is deeper than that either
   };
 
   /// @param motion_error  upper bound of the error of the bodies' relative position [m].
@@ -77,24 +80,25 @@ class SurfacePair {
 
   /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
   /// (they are apart, and seen from the outside) or CONTACT (they cross).
-  bool isOutsideDoubtful() const { return !half_space_ && (field_->doubtful || shell_->doubtful); }
-  bool isInsideDoubtful() const { return !half_space_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
+  bool isOutsideDoubtful() const { return !plane_ && (field_->doubtful || shell_->doubtful); }
+  bool isInsideDoubtful() const { return !plane_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
 
  private:
-  double error() const { return deviation_ + (half_space_ ? half_space_->deviation() : 0.0); }
-  const BoxTree& treeF() const { return half_space_ ? half_space_->tree() : field_->triangles->tree; }
-  const BoxTree& closedTreeF() const { return half_space_ ? half_space_->tree() : field_->triangles->closedTree(); }
+  double error() const { return deviation_ + (plane_ ? plane_->deviation : 0.0); }
   Vector3d fromAToB(const Vector3d& from_f_to_p) const { return f_is_a_ ? from_f_to_p : Vector3d(-from_f_to_p); }
 
-  Answer decideBy(const BoxTree& a, const BoxTree& b, double margin, SeparationWitness& witness,
-                  SeparationMemory& memory) const;
+  /// The surfaces, with the caps that close openings or without.
+  Separation test(bool closed, const TwoBodyMotion& motion, const SeparationOptions& options, SeparationMemory& memory);
+  Separation testCloser(bool closed, const TwoBodyMotion& motion, SeparationOptions options, SeparationMemory& memory);
+  Answer decideBy(bool closed, double margin, SeparationMemory& memory);
+  bool isBelowThroughout(double margin, SeparationMemory& memory);
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
 
   bool f_is_a_;
   RelativeMotion motion_;
-  const Body *field_, *shell_;                // bodies F and P; P is the smaller one, or F the half-space
-  std::optional<HalfSpacePatch> half_space_;  // F, if it is one
+  const Body *field_, *shell_;          // bodies F and P; P is the smaller one, or F the half-space
+  std::optional<BodyHalfSpace> plane_;  // F, if it is a half-space
   double deviation_;
   double resolution_;
   SeparationWitness witness_, closed_witness_;

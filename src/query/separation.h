@@ -47,7 +47,13 @@ struct SeparationMemory {
   struct Triangles {
     std::int32_t a, b;
   };
+  /// A node of a single tree, with a lower bound of its boxes' heights.
+  struct HighBox {
+    double height;
+    std::int32_t node;
+  };
   std::vector<Boxes> stack;
+  std::vector<HighBox> high_boxes;
   std::vector<Triangles> near;  ///< pairs not known to be apart
   TrianglePairs filter, exact;
   std::array<Triangles, TrianglePairs::kSize> filter_ids, exact_ids;

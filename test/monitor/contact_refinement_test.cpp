@@ -246,7 +246,10 @@ TEST(ContactRefinement, OnlyWhereItIsAskedForAndPossible) {
   const PairResult of_open = run(open, coarse(), refined());
   EXPECT_FALSE(of_open.first_touch);
   EXPECT_NE(of_open.verdict, Verdict::kClear);
-  EXPECT_FALSE(run(Primitive(HalfSpace{}), coarse(), refined()).first_touch);
+  const auto with_half_space =
+      run(Primitive(HalfSpace{}), coarse(), refined()).first_touch;  // all of the slab is in it
+  ASSERT_TRUE(with_half_space);
+  EXPECT_EQ(with_half_space->enter, 0.0);
 }
 
 TEST(ContactRefinement, OfRoundBodiesToo) {

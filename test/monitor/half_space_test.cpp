@@ -101,30 +101,95 @@ TEST(HalfSpacePair, TellsATenthOfAMillimetre) {
   EXPECT_GT(contact, 400);
 }
 
-/// A turn dips a corner below the ground for a moment; the truth is sampled densely.
+/// Shapes of a larger size, and how far each reaches against a direction of its frame.
+const Case kLargeCases[] = {
+    {"box", Primitive(Box{{0.3, 0.2, 0.1}}),
+     [](const Vector3d& down) { return down.cwiseAbs().dot(Vector3d(0.3, 0.2, 0.1)); }},
+    {"flat cylinder", Primitive(Cylinder{0.3, 0.05}),
+     [](const Vector3d& down) { return 0.3 * std::hypot(down.x(), down.y()) + 0.05 * std::abs(down.z()); }},
+    {"long cylinder", Primitive(Cylinder{0.02, 0.5}),
+     [](const Vector3d& down) { return 0.02 * std::hypot(down.x(), down.y()) + 0.5 * std::abs(down.z()); }},
+};
+
+/// A turn dips a body below the ground for a moment, or nearly. The truth is sampled densely.
 TEST(HalfSpacePair, SeesWhatATurnDips) {
   Random random(6);
-  Fall fall(Primitive(Box{kHalf}), Isometry3d::Identity());
   int contacts = 0, clear = 0;
-  for (int trial = 0; trial < 400; ++trial) {
-    const Vector3d axis = uniformIn(random, {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)}).normalized();
-    const double angle = uniform(random, 0.1, 2.5);
-    const Isometry3d R = test::pose(random, kPi, 0.0);
-    double deepest = -1e9;
-    for (int i = 0; i <= 2000; ++i) {
-      const Matrix3d turned = Eigen::AngleAxisd(angle * i / 2000.0, axis).toRotationMatrix() * R.linear();
-      deepest = std::max(deepest, boxDepth(turned.transpose() * -Vector3d::UnitZ()));
+  for (const Case& each : kLargeCases) {
+    Fall fall(each.shape, Isometry3d::Identity());
+    for (int trial = 0; trial < 400; ++trial) {
+      const Vector3d axis = direction(random);
+      const double angle = uniform(random, 0.1, 3.0);
+      const Isometry3d R = test::pose(random, kPi, 0.0);
+      double deepest = -1e9;
+      for (int i = 0; i <= 2000; ++i) {
+        const Matrix3d turned = Eigen::AngleAxisd(angle * i / 2000.0, axis).toRotationMatrix() * R.linear();
+        deepest = std::max(deepest, each.depthAlong(turned.transpose() * -Vector3d::UnitZ()));
+      }
+      const double gap = (trial % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, uniform(random, std::log10(1.2e-4), -2.0));
+      const Isometry3d X = translation({0.3, 0.2, deepest + gap});
+      Isometry3d turn = Isometry3d::Identity();
+      turn.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+      const Verdict verdict = fall.run(still(Isometry3d::Identity()), {X * R, X * turn * R}).verdict;
+      EXPECT_EQ(verdict, gap > 0.0 ? Verdict::kClear : Verdict::kContact) << each.name << " " << trial << " " << gap;
+      ++(gap > 0.0 ? clear : contacts);
     }
-    const double gap = (trial % 2 == 0 ? 1.0 : -1.0) * uniform(random, 2e-4, 2e-3);
-    const Isometry3d X = translation({0.3, 0.2, deepest + gap});
-    Isometry3d turn = Isometry3d::Identity();
-    turn.linear() = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-    const Verdict verdict = fall.run(still(Isometry3d::Identity()), {X * R, X * turn * R}).verdict;
-    EXPECT_EQ(verdict, gap > 0.0 ? Verdict::kClear : Verdict::kContact) << trial << " " << gap;
-    ++(gap > 0.0 ? clear : contacts);
   }
-  EXPECT_GT(contacts, 100);
-  EXPECT_GT(clear, 100);
+  EXPECT_GT(contacts, 500);
+  EXPECT_GT(clear, 500);
+}
+
+/// UNCERTAIN means: nearly touching, in both directions. What is nearest then is searched for by bisection of the
+/// height at which the verdict changes.
+TEST(HalfSpacePair, UncertainIsANarrowBand) {
+  Random random(9);
+  CycleRequest verdict_only;
+  verdict_only.contacts = verdict_only.wrenches = false;
+  for (const Case& each : kLargeCases) {
+    Fall fall(each.shape, Isometry3d::Identity());
+    for (int trial = 0; trial < 60; ++trial) {
+      const Isometry3d start = test::pose(random, kPi, 0.0), turn = test::pose(random, 3.0, 0.3);
+      double error = 0.0;
+      const auto verdictAt = [&](double height) {
+        const Isometry3d X = translation({0, 0, height}) * start;
+        fall.monitor->reset();
+        const PairResult result =
+            fall.run(still(Isometry3d::Identity()), {X, X * turn}, trial % 2 == 0 ? verdict_only : CycleRequest());
+        if (result.verdict == Verdict::kUncertain) error = std::max(error, result.error.total());
+        return result.verdict;
+      };
+      const auto changeFrom = [&](Verdict verdict, double low, double high) {
+        while (high - low > 1e-6) (verdictAt(0.5 * (low + high)) == verdict ? low : high) = 0.5 * (low + high);
+        return low;
+      };
+      const double contact_below = changeFrom(Verdict::kContact, -2.0, 2.0);
+      double clear_above = contact_below;
+      while (verdictAt(clear_above) != Verdict::kClear) clear_above += 1e-6;
+      EXPECT_LE(clear_above - contact_below, 1e-4) << each.name;
+      EXPECT_LE(error, 1.03e-4) << each.name;  // that of the triangles included
+    }
+  }
+}
+
+/// A ball of many triangles flies along the ground for a hundred metres, spinning about its way, on which the height of
+/// its center is then monotonic in each step. It is lowest somewhere.
+TEST(HalfSpacePair, DecidesLongMotionsOfDenseMeshes) {
+  Random random(8);
+  const double radius = 0.3, sag = 1e-5;  // a triangle's middle is that much nearer to the center than its corners
+  Fall fall(meshShape(icosphere(radius, 6)), Isometry3d::Identity());
+  for (int trial = 0; trial < 20; ++trial) {
+    const double gap = (trial % 2 == 0 ? 1.0 : -1.0) * uniform(random, 1.2e-4, 1e-3), turn = uniform(random, 0.3, 2.5);
+    const int lowest = static_cast<int>(uniform(random, 0.0, 100.0));
+    std::vector<Isometry3d> X_WP;
+    for (int k = 0; k <= 100; ++k) {
+      const double height = radius + (gap > 0.0 ? gap + sag : gap) + 2e-4 * std::abs(k - lowest);
+      X_WP.push_back(translation({k * 1.0, 0.0, height}) * pose({0, 0, 0}, k * turn, {1, 0, 0}));
+    }
+    fall.monitor->reset();
+    EXPECT_EQ(fall.run(still(Isometry3d::Identity(), X_WP.size()), X_WP).verdict,
+              gap > 0.0 ? Verdict::kClear : Verdict::kContact)
+        << gap << " " << turn;
+  }
 }
 
 /// Whatever is below the surface is in contact, all the time, with the half-space's normal.

@@ -81,7 +81,7 @@ struct PairResult {
   bool refined = false;  ///< the deepest point was measured on triangles: see CycleRequest::refine
   /// If refined, and the surfaces cross: the bodies are apart before `enter`, and certainly touch by `exit`. The first
   /// interval begins between the two. `exit` is infinite if no certain crossing was found. Not set if one body may be
-  /// inside the other at the start.
+  /// inside the other at the start, unless that is a half-space.
   std::optional<Interval> first_touch;
   Wrench on_a_W;  ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;  ///< the same on B, about B's origin

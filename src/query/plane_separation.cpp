@@ -1,0 +1,230 @@
+#include "plane_separation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/infinity.h"
+#include "sdf_ccd/common/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+constexpr double kFiner = 0.02;   // of the resolution: accuracy of heights, and of chords in a short search
+constexpr int kShortSearch = 64;  // poses
+constexpr double kPrune = 0.6;    // of the lowest known height above a target, as in separation()
+
+using Heights = std::array<double, BoxTree::Node::kWidth>;
+
+/// Heights of points of the surface at one pose.
+struct Upward {
+  Upward(const HalfSpace& half_space, const Isometry3d& X_FP)
+      : direction(X_FP.linear().transpose() * half_space.normal),
+        offset(half_space.normal.dot(X_FP.translation()) - half_space.offset) {}
+
+  double heightOf(const Vector3d& p_P) const { return direction.dot(p_P) + offset; }
+
+  Vector3d direction;
+  double offset;
+};
+
+const Vector3d& lowestCorner(const Corners& t, const Vector3d& up) {
+  const double a = up.dot(t[0]), b = up.dot(t[1]), c = up.dot(t[2]);
+  return a <= b ? (a <= c ? t[0] : t[2]) : (b <= c ? t[1] : t[2]);
+}
+
+/// Lower bounds of the heights of a node's boxes. In double precision, so that boxes that lie flat on a plane are known
+/// to.
+Heights boxHeights(const BoxTree::Node& node, const Upward& up, double origin_height) {
+  constexpr int kWidth = BoxTree::Node::kWidth;
+  Heights heights;
+  for (int i = 0; i < kWidth; ++i)
+    heights[i] = origin_height + up.direction[0] * double(node.center[0][i]) +
+                 up.direction[1] * double(node.center[1][i]) + up.direction[2] * double(node.center[2][i]) -
+                 double(node.radius[i]);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < kWidth; ++i)
+      heights[i] -=
+          std::abs(up.direction[0] * double(node.axis[axis][0][i]) + up.direction[1] * double(node.axis[axis][1][i]) +
+                   up.direction[2] * double(node.axis[axis][2][i])) *
+          double(node.half[axis][i]);
+  return heights;
+}
+
+/// A surface's lowest triangle at one pose.
+struct LowestTriangle {
+  int triangle = -1;
+  double height = kInfinity;    // [m]
+  double at_least = kInfinity;  // lower bound of all heights [m]
+};
+
+/// Branch and bound over the boxes.
+class LowestSearch {
+ public:
+  /// @param target    above it, heights need not be accurate: `at_least` is then above it too.
+  /// @param accuracy  of heights below it [m].
+  LowestSearch(const BoxTree& surface, const Upward& up, double target, double accuracy, SeparationMemory& memory)
+      : surface_(surface), up_(up), target_(target), accuracy_(accuracy), memory_(memory) {}
+
+  LowestTriangle run(int first_triangle) {
+    if (first_triangle >= 0) test(first_triangle);
+    auto& pending = memory_.high_boxes;
+    pending.assign(1, {-kInfinity, surface_.root().node});
+    const double origin_height = up_.heightOf(surface_.origin());
+    while (!pending.empty()) {
+      cancel_.check();
+      const SeparationMemory::HighBox next = pending.back();
+      pending.pop_back();
+      if (next.height < cut_) {
+        open(surface_.node(next.node), origin_height);
+      } else {
+        found_.at_least = std::min(found_.at_least, next.height);
+      }
+    }
+    found_.at_least = std::min(found_.at_least, found_.height);
+    return found_;
+  }
+
+ private:
+  void test(int i) {
+    const RoundedTriangle& t = surface_.triangle(i);
+    const double height = up_.heightOf(lowestCorner(t.corners, up_.direction)) - t.radius;
+    if (!(height < found_.height)) return;
+    found_.height = height;
+    found_.triangle = i;
+    cut_ = height > target_ ? target_ + kPrune * (height - target_) : height - accuracy_;
+  }
+
+  /// The lowest box below is opened next.
+  void open(const BoxTree::Node& node, double origin_height) {
+    const Heights heights = boxHeights(node, up_, origin_height);
+    auto& pending = memory_.high_boxes;
+    const std::size_t first = pending.size();
+    for (int i = 0; i < node.count; ++i) {
+      const std::int32_t below = node.below[i];
+      if (!(heights[i] < cut_)) {
+        found_.at_least = std::min(found_.at_least, heights[i]);
+      } else if (BoxTree::isTriangle(below)) {
+        test(BoxTree::triangleOf(below));
+      } else {
+        pending.push_back({heights[i], below});
+      }
+    }
+    for (std::size_t i = first; i + 1 < pending.size(); ++i)
+      if (pending[i].height < pending.back().height) std::swap(pending[i], pending.back());
+  }
+
+  const BoxTree& surface_;
+  const Upward& up_;
+  const double target_, accuracy_;
+  SeparationMemory& memory_;
+  double cut_ = kInfinity;  // boxes higher than this are not opened
+  LowestTriangle found_;
+  CancelTicks<1024> cancel_;
+};
+
+class PlaneQuery {
+ public:
+  PlaneQuery(const HalfSpace& half_space, const BoxTree& surface, const TwoBodyMotion& motion,
+             const SeparationOptions& options, SeparationWitness& witness, SeparationMemory& memory)
+      : half_space_(half_space),
+        surface_(surface),
+        motion_(motion),
+        options_(options),
+        witness_(witness),
+        memory_(memory) {}
+
+  Separation run() {
+    const Isometry3d X_start = poseAt(0.0), X_end = poseAt(1.0);
+    const double size = (X_start * surface_.origin()).norm() + (X_end * surface_.origin()).norm() +
+                        surface_.origin().norm() + surface_.ball().radius + std::abs(half_space_.offset);
+    rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
+    found_.distance = kInfinity;
+    const double at_end = lowestAt(1.0, X_end, 1.0);
+    if (!crossed_) testBetween({0.0, 1.0, lowestAt(0.0, X_start, 1.0), at_end});
+    if (!crossed_) found_.state = open_ ? SeparationState::kOpen : SeparationState::kApart;
+    found_.is_near = open_ && left_open_ <= 2.0 * options_.resolution;
+    return found_;
+  }
+
+ private:
+  /// Part of the motion, and lower bounds of the surface's heights at its ends.
+  struct Part {
+    double start, end;
+    double at_start, at_end;
+  };
+
+  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
+
+  double chordError(double length) const { return motion_.acceleration * length * length / 8.0; }
+
+  /// Tests one pose. @param length  of the interval that it ends. @return a lower bound of the heights.
+  double lowestAt(double s, const Isometry3d& X_FP, double length) {
+    ++found_.tests;
+    const Upward up(half_space_, X_FP);
+    const double target = options_.margin + chordError(length) + rounding_;
+    LowestSearch search(surface_, up, target, kFiner * options_.resolution, memory_);
+    const LowestTriangle lowest = search.run(witness_.near_b);
+    witness_.near_b = lowest.triangle;
+    if (lowest.height + rounding_ < -options_.margin) setCrossing(s, X_FP, up, lowest);
+    return lowest.at_least;
+  }
+
+  void setCrossing(double s, const Isometry3d& X_FP, const Upward& up, const LowestTriangle& lowest) {
+    const RoundedTriangle& t = surface_.triangle(lowest.triangle);
+    crossed_ = true;
+    found_.state = SeparationState::kCrossing;
+    found_.s = s;
+    found_.p_A = X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space_.normal;
+    found_.normal_A = half_space_.normal;
+  }
+
+  void testBetween(const Part& part) {
+    if (crossed_) return;
+    const double length = part.end - part.start, error = chordError(length);
+    const double apart = std::min(part.at_start, part.at_end) - error - rounding_;
+    if (apart > options_.margin) {
+      found_.distance = std::min(found_.distance, apart);
+      return;
+    }
+    const bool is_short = !open_ && found_.tests < kShortSearch;
+    if (error <= (is_short ? kFiner : 1.0) * options_.resolution || found_.tests > options_.max_tests) {
+      open_ = true;
+      left_open_ = std::max(left_open_, error + kFiner * options_.resolution + 2.0 * rounding_);
+      return;
+    }
+    const double middle = 0.5 * (part.start + part.end);
+    const double at_middle = lowestAt(middle, poseAt(middle), 0.5 * length);
+    testBetween({middle, part.end, at_middle, part.at_end});  // what touches at its end usually touches later too
+    testBetween({part.start, middle, part.at_start, at_middle});
+  }
+
+  const HalfSpace& half_space_;
+  const BoxTree& surface_;
+  const TwoBodyMotion& motion_;
+  const SeparationOptions& options_;
+  SeparationWitness& witness_;
+  SeparationMemory& memory_;
+  double rounding_ = 0.0;
+  double left_open_ = 0.0;  // upper bound of how far the lowest heights left open are from the margin [m]
+  bool crossed_ = false, open_ = false;
+  Separation found_;
+};
+
+}  // namespace
+
+LowestPoint lowestPoint(const HalfSpace& half_space, const BoxTree& surface, const Isometry3d& X_FP, double accuracy,
+                        SeparationWitness& witness, SeparationMemory& memory) {
+  const Upward up(half_space, X_FP);
+  const LowestTriangle lowest = LowestSearch(surface, up, kInfinity, accuracy, memory).run(witness.near_b);
+  witness.near_b = lowest.triangle;
+  const RoundedTriangle& t = surface.triangle(lowest.triangle);
+  return {lowest.height, lowest.at_least, X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space.normal};
+}
+
+Separation planeSeparation(const HalfSpace& half_space, const BoxTree& surface, const TwoBodyMotion& motion,
+                           const SeparationOptions& options, SeparationWitness& witness, SeparationMemory& memory) {
+  return PlaneQuery(half_space, surface, motion, options, witness, memory).run();
+}
+
+}  // namespace sdf_ccd
