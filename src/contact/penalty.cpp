@@ -30,12 +30,18 @@ const std::vector<Node> kMidpoint = {{0.5, 1.0}};
 // Values of sibling fields that differ by less than this, the rounding of their poses, count as equal [m].
 constexpr double kTie = 1e-9;
 
+bool isRound(const DistanceField& field) {
+  const Primitive* const primitive = field.primitive();
+  return primitive && (std::holds_alternative<Sphere>(*primitive) || std::holds_alternative<Cylinder>(*primitive));
+}
+
 class Integrator {
  public:
   Integrator(const ContactInput& input, const ContactOptions& options, const ContactRequest& request,
              ContactImpulse& result)
       : input_(input),
         field_(input.field),
+        is_round_(isRound(input.field)),
         options_(options),
         rule_(options.quadrature == Quadrature::kExact ? kGauss : kMidpoint),
         request_(request),
@@ -140,7 +146,8 @@ class Integrator {
     const FieldValue at_last = field_.interpolate(point.position(last));
     const bool known = at_first.gradient.norm() > 1e-9 && at_last.gradient.norm() > 1e-9;
     const bool exact = options_.quadrature == Quadrature::kExact;
-    const bool linear = exact && (known || options_.normal == NormalSource::kShell);
+    // N is linear where d is cubic, in a cell, and constant along a box's pieces; about an axis or a center it turns.
+    const bool linear = exact && !is_round_ && (known || options_.normal == NormalSource::kShell);
     const Vector3d N_first = normal(point, first, at_first.gradient);
     const Vector3d N_last = normal(point, last, at_last.gradient);
     deepest_.offer(first, at_first.value);
@@ -211,6 +218,7 @@ class Integrator {
 
   const ContactInput& input_;
   CellReader field_;
+  bool is_round_;  // the field is a sphere or a cylinder
   const ContactOptions& options_;
   const std::vector<Node>& rule_;  // on each piece
   const ContactRequest& request_;

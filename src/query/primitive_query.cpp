@@ -58,13 +58,21 @@ class RoundLine {
   RoundLine(const Vector3d& start, const Vector3d& displacement)
       : a_(displacement.squaredNorm()), b_(start.dot(displacement)), c_(start.squaredNorm()) {}
 
-  /// Adds the parameter of the closest approach, and some about it: the direction to the center turns by 90 degrees
-  /// while the point moves by twice its least distance.
+  /// Adds parameters that cut the interval where the distance turns, if it does so there. The distance is smooth but
+  /// for the complex parameters nearest ± i least, where it is 0: three-point Gauss has a relative error below 1e-6 on
+  /// an interval that is three times its length away from them.
   template <class Add>
-  void addTurns(const Add& add) const {
+  void addTurns(const Interval& interval, const Add& add) const {
+    constexpr double kFar = 3.0;
+    constexpr int kPieces = 8;
     if (!(a_ > 0.0)) return;
+    const double length = interval.exit - interval.enter;
     const double nearest = -b_ / a_, least = std::sqrt(std::max(0.0, c_ + b_ * nearest) / a_);
+    const double before = std::max({0.0, interval.enter - nearest, nearest - interval.exit});
+    if (before * before + least * least >= kFar * kFar * length * length) return;
+    for (int i = 1; i < kPieces; ++i) add(interval.enter + length * i / kPieces);
     add(nearest);
+    // The direction to the center turns by 90 degrees while the point moves by twice its least distance.
     for (const double share : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
       add(nearest - share * least);
       add(nearest + share * least);
@@ -131,12 +139,10 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
     std::sort(breaks.begin(), breaks.end());
     return;
   }
-  constexpr int kPieces = 8;
-  for (int i = 1; i < kPieces; ++i) add(interval.enter + (interval.exit - interval.enter) * i / kPieces);
   const Cylinder* cylinder = std::get_if<Cylinder>(&primitive);
   const Vector3d across(1.0, 1.0, cylinder ? 0.0 : 1.0);  // the axes in which the surface is round
   const RoundLine line(segment.start.cwiseProduct(across), (segment.end - segment.start).cwiseProduct(across));
-  line.addTurns(add);
+  line.addTurns(interval, add);
   if (cylinder) {
     // Inside, the distance is the larger one of that from the side and those from both caps.
     const double z = segment.start.z(), slope = segment.end.z() - z;

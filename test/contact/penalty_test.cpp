@@ -244,7 +244,9 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
       // Every other path passes close to the center.
       const double near = i % 2 ? 0.02 : 0.8;
       const Vector3d from = 0.8 * Vector3d(u(random), u(random), u(random)),
-                     to = near * Vector3d(u(random), u(random), u(random)) - (i % 2 ? 1.0 : 0.0) * from;
+                     through = near * Vector3d(u(random), u(random), u(random)) - (i % 2 ? 1.0 : 0.0) * from;
+      // Most paths are shorter than the distance from the center, so that the direction hardly turns on them.
+      const Vector3d to = from + std::pow(10.0, -0.5 * (i / 2 % 5)) * (through - from);
       Vector3d reference = Vector3d::Zero();
       double size = 0.0, deepest = 0.0;
       for (int k = 0; k < kNodes; ++k) {
@@ -255,9 +257,9 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
         deepest = std::max(deepest, at.depth);
       }
       if (size == 0.0) continue;
-      const ContactCase through{body.field, onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
-                                oneChord(1.0, translation(from), translation(to))};
-      const ContactImpulse found = through.run(perArea());
+      const ContactCase moving{body.field, onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
+                               oneChord(1.0, translation(from), translation(to))};
+      const ContactImpulse found = moving.run(perArea());
       const double error = (found.on_shell_body.force - reference).norm() / size;
       sum += error;
       worst = std::max(worst, error);
@@ -265,8 +267,8 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
       for (const HitDepth& hit : found.depths) depth = std::max(depth, hit.depth);
       shallower = std::max(shallower, deepest - depth);
     }
-    EXPECT_LT(sum / kPaths, 5e-3);
-    EXPECT_LT(worst, 0.02);
+    EXPECT_LT(sum / kPaths, 2e-4);
+    EXPECT_LT(worst, 3e-3);
     EXPECT_LT(shallower, 1e-4);
   }
 }
