@@ -199,9 +199,13 @@ class Integrator {
   }
 
   /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.
-  double reachOf(const ChordPoint& point, const Interval& interval) const {
+  /// Only the greatest one of all points is needed precisely.
+  double reachOf(const ChordPoint& point, const Interval& interval) {
     constexpr double kMostPieces = 16.0;
     const double length = (point.position(interval.exit) - point.position(interval.enter)).norm();
+    const Vector3d middle = point.position(0.5 * (interval.enter + interval.exit));
+    const double rough = 0.5 * length - input_.field.lowerBound(middle);
+    if (rough <= greatest_reach_) return rough;
     const double wanted = std::max(1.0, std::ceil(length / input_.field.errorBound()));
     const int pieces = static_cast<int>(std::min(wanted, kMostPieces));
     double reach = 0.0, before = 0.0;
@@ -213,6 +217,7 @@ class Integrator {
       if (i > 0) reach = std::max(reach, 0.5 * (before + greatest + length / pieces));
       before = greatest;
     }
+    greatest_reach_ = std::max(greatest_reach_, reach);
     return reach;
   }
 
@@ -225,8 +230,9 @@ class Integrator {
   ContactImpulse& result_;
   int chord_ = -1;
   ChordPoses poses_;
-  double stiffness_ = 0.0;  // of this point [N/m]
-  double damping_ = 0.0;    // of this point [N·s/m]
+  double stiffness_ = 0.0;       // of this point [N/m]
+  double damping_ = 0.0;         // of this point [N·s/m]
+  double greatest_reach_ = 0.0;  // of all points so far [m]
   Deepest deepest_;
 };
 
