@@ -19,50 +19,52 @@ Vector3i cubeOf(const Vector3d& g, const Vector3i& count) {
 
 CellReader::CellReader(const DistanceField& field)
     : field_(field), primitive_(field.primitive()), grid_(field.grid()), adaptive_(field.adaptive()) {
-  if (!primitive_) box_ = field.box();
+  if (primitive_) return;
+  box_ = field.box();
+  origin_ = grid_ ? grid_->shape().origin : adaptive_->shape().origin;
+  unit_ = grid_ ? grid_->shape().cell : adaptive_->shape().unit();
 }
 
 /// Moves to the cell (or leaf) that holds the point, and reads its corners if it is not the previous one.
 /// @return false if the point is outside the grid or in a cell without corner values.
 bool CellReader::enter(const Vector3d& p_F) {
-  return box_.contains(p_F) && (grid_ ? enterCell(p_F) : enterLeaf(p_F));
+  const Vector3d g = (p_F - origin_) / unit_;
+  return stays(g) || (box_.contains(p_F) && (grid_ ? enterCell(g) : enterLeaf(g)));
 }
 
-bool CellReader::enterCell(const Vector3d& p_F) {
-  const GridShape& shape = grid_->shape();
-  const Vector3d g = (p_F - shape.origin) / shape.cell;
-  const Vector3i cell = cubeOf(g, shape.cells());
-  if (side_ == 0 || cell != low_) {
-    const Vector3i brick = cell / GridShape::kBrick;
-    const std::int32_t slot = grid_->slot(brick);
-    if (slot == SparseGrid::kFar) return false;
-    corners_ = grid_->cellCorners(slot, cell - GridShape::kBrick * brick);
-    low_ = cell;
-    side_ = 1;
-  }
-  u_ = unit(g - cell.cast<double>());
+/// Whether the point is in the previous cell.
+bool CellReader::stays(const Vector3d& g) {
+  const Vector3d from_low = g - low_;
+  if (!((from_low.array() >= 0.0).all() && (from_low.array() < side_).all())) return false;
+  u_ = grid_ ? from_low : Vector3d(from_low / side_);
   return true;
 }
 
-bool CellReader::enterLeaf(const Vector3d& p_F) {
-  const AdaptiveShape& shape = adaptive_->shape();
-  const Vector3d g = (p_F - shape.origin) / shape.unit();
-  const Vector3i cube = cubeOf(g, shape.units());
-  if (side_ == 0 || (cube.array() < low_.array()).any() || (cube.array() >= low_.array() + side_).any()) {
-    const AdaptiveBlock block = adaptive_->block(cube);
-    if (!block.leaf) return false;
-    corners_ = adaptive_->corners(block);
-    low_ = block.low;
-    side_ = block.side;
-  }
-  u_ = unit((g - low_.cast<double>()) / side_);
+bool CellReader::enterCell(const Vector3d& g) {
+  const Vector3i cell = cubeOf(g, grid_->shape().cells());
+  const Vector3i brick = cell / GridShape::kBrick;
+  const std::int32_t slot = grid_->slot(brick);
+  if (slot == SparseGrid::kFar) return false;
+  corners_ = grid_->cellCorners(slot, cell - GridShape::kBrick * brick);
+  low_ = cell.cast<double>();
+  side_ = 1.0;
+  u_ = unit(g - low_);
+  return true;
+}
+
+bool CellReader::enterLeaf(const Vector3d& g) {
+  const AdaptiveBlock block = adaptive_->block(cubeOf(g, adaptive_->shape().units()));
+  if (!block.leaf) return false;
+  corners_ = adaptive_->corners(block);
+  low_ = block.low.cast<double>();
+  side_ = block.side;
+  u_ = unit((g - low_) / side_);
   return true;
 }
 
 FieldValue CellReader::interpolate(const Vector3d& p_F) {
   if (primitive_ || !enter(p_F)) return field_.interpolate(p_F);
-  const double side = grid_ ? grid_->shape().cell : side_ * adaptive_->shape().unit();
-  return {trilinear(corners_, u_), trilinearGradient(corners_, u_) / side};
+  return {trilinear(corners_, u_), trilinearGradient(corners_, u_) / (side_ * unit_)};
 }
 
 double CellReader::value(const Vector3d& p_F) {

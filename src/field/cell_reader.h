@@ -20,17 +20,20 @@ class CellReader {
 
  private:
   bool enter(const Vector3d& p_F);
-  bool enterCell(const Vector3d& p_F);
-  bool enterLeaf(const Vector3d& p_F);
+  bool stays(const Vector3d& g);
+  bool enterCell(const Vector3d& g);
+  bool enterLeaf(const Vector3d& g);
 
   const DistanceField& field_;
   const Primitive* primitive_;
   const SparseGrid* grid_;
   const AdaptiveGrid* adaptive_;
   AlignedBox3d box_;  // of the grid
+  Vector3d origin_ = Vector3d::Zero();
+  double unit_ = 0.0;  // a cell, or a unit of the adaptive grid [m]
   // The current cell (or leaf): first corner and side, in cells (or units of the adaptive grid).
-  Vector3i low_ = Vector3i::Zero();
-  int side_ = 0;  // 0: no cell has been read yet
+  Vector3d low_ = Vector3d::Zero();
+  double side_ = 0.0;  // 0: no cell has been read yet
   std::array<double, 8> corners_;
   Vector3d u_ = Vector3d::Zero();  // the point's coordinates in the cell, [0, 1]³
 };

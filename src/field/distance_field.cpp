@@ -33,12 +33,21 @@ const std::shared_ptr<const Grid>& valid(const std::shared_ptr<const Grid>& grid
   throw std::invalid_argument("distance field: the surface cannot have moved by " + numberText(moved) + " m");
 }
 
+/// The same solid, with the normal of a half-space of length 1 as precisely as doubles can.
+Primitive normalised(Primitive primitive) {
+  validate(primitive);
+  if (auto* half_space = std::get_if<HalfSpace>(&primitive)) {
+    const double length = half_space->normal.norm();
+    half_space->normal /= length;
+    half_space->offset /= length;
+  }
+  return primitive;
+}
+
 }  // namespace
 
 DistanceField::DistanceField(const Primitive& primitive)
-    : representation_(primitive), surface_box_(boundingBox(primitive)) {
-  validate(primitive);
-}
+    : representation_(normalised(primitive)), surface_box_(boundingBox(primitive)) {}
 
 DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
                              double moved)

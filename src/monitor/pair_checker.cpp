@@ -185,10 +185,10 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     if (clearBySurfaces(by_surfaces, result)) return;
     if (by_surfaces.crossing && !request.wantsContacts()) return setCrossing(*by_surfaces.crossing, result);
     // Fields tell no more of a half-space than its surface does.
-    if (by_surfaces.is_near && surfaces_->isWithHalfSpace() && !request.wantsContacts()) {
+    if (surfaces_->isWithHalfSpace() && !request.wantsContacts()) {
       forgetClearance();
       result.verdict = Verdict::kUncertain;
-      return setSurfaceError(true, surface_error, result);
+      return setSurfaceError(by_surfaces.open_within, surface_error, result);
     }
     setRoles(bodies, result.span);
     motion_error_ += given_error;
@@ -209,13 +209,13 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
       refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
     if (surfaces_) completePeaks(result);
     if (!crossing) doubt(result);
-    return setSurfaceError(by_surfaces.is_near, surface_error, result);
+    return setSurfaceError(by_surfaces.open_within, surface_error, result);
   }
   // With both shells the surfaces' distance is known up to the gap; with one, up to its covering radius.
   setClear(roles_.pointClearanceAtEnd(0.5 * near) - bound_.gap, result);
   doubt(result);
   outside_ = result.verdict == Verdict::kClear;
-  setSurfaceError(false, surface_error, result);
+  setSurfaceError(kInfinity, surface_error, result);
 }
 
 /// Sets UNCERTAIN if the verdict rests on fields of a body whose inside is doubtful.
@@ -310,11 +310,12 @@ void PairChecker::boundHiddenDepth(PairResult& result, ContactPoint& point) cons
 /// are already accounted for. What remains is the motion's error, which no check removes, and the deviation of the
 /// triangles that stand for a curved surface. An UNCERTAIN pair is so up to the triangles' resolution if these found
 /// the surfaces near, otherwise up to the errors of the fields.
-/// @param error  of the triangles and the motion.
-void PairChecker::setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const {
-  if (!surfaces_ || (result.verdict == Verdict::kUncertain && !is_near)) return;
+/// @param open_within  SurfacePair::Answer::open_within. @param error  of the triangles and the motion.
+void PairChecker::setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const {
+  const bool is_open = result.verdict == Verdict::kUncertain;
+  if (!surfaces_ || (is_open && open_within == kInfinity)) return;
   result.error = error;
-  if (result.verdict == Verdict::kUncertain) result.error.gap += 2.0 * surfaces_->resolution();
+  if (is_open) result.error.gap += open_within;
 }
 
 /// Whether the triangles prove that the bodies stay apart. @param answer  set if not.

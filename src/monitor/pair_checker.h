@@ -88,7 +88,7 @@ class PairChecker {
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
-  void setSurfaceError(bool is_near, const ErrorBound& error, PairResult& result) const;
+  void setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const;
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
   void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& known,
                     PairResult& result);

@@ -126,9 +126,12 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     if (!is_within || found.distance > 0.0) found.error = gone;
     found.distance = 0.0;
     found.slab.reset();
-    found.p_A_W = found.p_B_W = result.deepest.p_W;
-    found.normal_W = result.deepest.normal_W;
     pair.is_known = false;
+    const bool is_with_plane = !scene_->bodies[result.body_a].triangles || !scene_->bodies[result.body_b].triangles;
+    if (!(is_exact && is_within && is_with_plane)) {
+      found.p_A_W = found.p_B_W = result.deepest.p_W;
+      found.normal_W = result.deepest.normal_W;
+    }
   } else {
     pair.is_known = ballContainsBody(scene_->bodies[result.body_b]);  // stored for isFar(), which moves body B's ball
     pair.at_least = is_within ? found.distance - found.error : range;
@@ -178,9 +181,10 @@ bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometr
   const BodyHalfSpace plane = halfSpaceOf(scene_->bodies[plane_is_a ? pair.body_a : pair.body_b]);
   const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
   const double deviation = verdictBound(*scene_, pair).total() + plane.deviation;
-  const double error = deviation + kTriangleError * surface.ball().radius;
-  const LowestPoint lowest = lowestPoint(plane.half_space, surface, relativePose(X_WF, X_WP),
-                                         kTriangleError * surface.ball().radius, pairs_[i].witness, memory_);
+  const double accuracy = kTriangleError * surface.ball().radius;
+  const LowestPoint lowest =
+      lowestPoint(plane.half_space, surface, relativePose(X_WF, X_WP), accuracy, pairs_[i].witness, memory_);
+  const double error = deviation + accuracy + (lowest.height - lowest.at_least);
   if (!(lowest.height <= range + error)) return false;
   const Vector3d up_W = X_WF.linear() * plane.half_space.normal;
   const Vector3d on_p = X_WF * lowest.p_F, on_f = on_p - lowest.height * up_W;

@@ -64,12 +64,16 @@ SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double res
       shell_(&scene.bodies[motion_.p()]),
       deviation_(verdictBound(scene, pair).total()),
       resolution_(resolution) {
-  if (!field_->triangles) plane_ = halfSpaceOf(*field_);
+  if (field_->triangles) return;
+  plane_ = halfSpaceOf(*field_);
+  deviation_ += plane_->deviation;
 }
 
 void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
                             std::vector<RelativeMotionBounds>& bounds) {
+  constexpr int kMostPoses = 200000;  // takes some tenths of a second
   motion_.take(bodies, span, bounds);
+  poses_left_ = kMostPoses;
 }
 
 double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
@@ -80,7 +84,7 @@ double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
 }
 
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
-  const double margin = motion_error + error();
+  const double margin = motion_error + deviation_;
   if (plane_) {
     Answer answer = decideBy(false, margin, memory);
     if (answer.crossing && isBelowThroughout(margin, memory)) {
@@ -103,7 +107,13 @@ Separation SurfacePair::test(bool closed, const TwoBodyMotion& motion, const Sep
                              SeparationMemory& memory) {
   SeparationWitness& witness = closed ? closed_witness_ : witness_;
   const BodyTriangles& p = *shell_->triangles;
-  if (plane_) return planeSeparation(plane_->half_space, p.tree, motion, options, witness, memory);
+  if (plane_) {
+    SeparationOptions limited = options;
+    limited.max_tests = poses_left_;
+    const Separation found = planeSeparation(plane_->half_space, p.tree, motion, limited, witness, memory);
+    poses_left_ = std::max(0, poses_left_ - found.tests);
+    return found;
+  }
   const BodyTriangles& f = *field_->triangles;
   return closed ? separation(f.closedTree(), p.closedTree(), motion, options, witness, memory)
                 : separation(f.tree, p.tree, motion, options, witness, memory);
@@ -116,7 +126,7 @@ Separation SurfacePair::testCloser(bool closed, const TwoBodyMotion& motion, Sep
   constexpr double kFiner = 0.02;
   constexpr int kMaxTests = 2000;
   Separation found = test(closed, motion, options, memory);
-  if (plane_ || !found.is_near || found.tests >= options.max_tests) return found;
+  if (plane_ || found.open_within == kInfinity || found.tests >= options.max_tests) return found;
   options.resolution *= kFiner;
   options.max_tests = std::min(kMaxTests, options.max_tests - found.tests);
   const Separation closer = test(closed, motion, options, memory);
@@ -128,8 +138,8 @@ Separation SurfacePair::testCloser(bool closed, const TwoBodyMotion& motion, Sep
 
 SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, SeparationMemory& memory) {
   Answer answer;
-  double distance = -std::numeric_limits<double>::infinity();
-  bool apart = true, all_near = true;
+  double distance = -kInfinity;
+  bool apart = true;
   SeparationOptions options;
   options.margin = margin;
   options.resolution = resolution_;
@@ -146,35 +156,46 @@ SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, Separation
       return answer;
     }
     const bool now = found.state == SeparationState::kApart;
+    distance = now ? found.distance : -kInfinity;
+    if (now) continue;
+    // What holds for a half-space must hold at all times, of others at any time.
+    answer.open_within = apart    ? found.open_within
+                         : plane_ ? std::max(answer.open_within, found.open_within)
+                                  : std::min(answer.open_within, found.open_within);
+    apart = false;
     // A motion of many undecided steps takes no longer than a single one.
-    if (!now) options.max_tests -= found.tests;
-    all_near &= now || found.is_near;
-    answer.is_near = plane_ ? all_near : answer.is_near || found.is_near;
-    distance = now ? found.distance : -std::numeric_limits<double>::infinity();
-    apart &= now;
-    if (options.max_tests > 0) continue;
-    answer.is_near &= !plane_;
-    return answer;
+    options.max_tests -= found.tests;
+    if (!plane_ && options.max_tests <= 0) return answer;
   }
   if (!apart) return answer;
   answer.state = SeparationState::kApart;
-  answer.clearance = distance - error();
+  answer.clearance = distance - deviation_;
   return answer;
 }
 
-/// Whether, in each step, what is lowest at its start stays below the plane.
+/// Whether a part of the body stays below the plane all the time.
 bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
-  const HalfSpace& plane = plane_->half_space;
-  for (std::size_t step = 0; step < motion_.steps(); ++step) {
-    const TwoBodyMotion motion = motion_.motion(step);
-    const auto X_FP = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
-    const Isometry3d X_start = X_FP(0.0);
-    const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);
-    const double at_end = plane.normal.dot(X_FP(1.0) * (X_start.inverse() * lowest.p_F)) - plane.offset;
-    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
-    if (!(std::max(lowest.height, at_end) + motion.acceleration / 8.0 + rounding < -margin)) return false;
-  }
+  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  for (std::size_t step = 0; step < motion_.steps(); ++step)
+    if (!isBelow(motion_.motion(step), 0.0, 1.0, margin + rounding, memory)) return false;
   return true;
+}
+
+/// The same for a part of a step: if what is lowest at its start does not stay below up to its end, its halves may
+/// tell.
+bool SurfacePair::isBelow(const TwoBodyMotion& motion, double start, double end, double margin,
+                          SeparationMemory& memory) {
+  const HalfSpace& plane = plane_->half_space;
+  const auto X_FP = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
+  const Isometry3d X_start = X_FP(start);
+  const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);
+  if (!(lowest.height < -margin) || --poses_left_ < 0) return false;
+  const double length = end - start, bend = motion.acceleration * length * length / 8.0;
+  const double at_end = plane.normal.dot(X_FP(end) * (X_start.inverse() * lowest.p_F)) - plane.offset;
+  if (std::max(lowest.height, at_end) + bend < -margin) return true;
+  const double middle = 0.5 * (start + end);
+  return bend > 0.02 * resolution_ && isBelow(motion, start, middle, margin, memory) &&
+         isBelow(motion, middle, end, margin, memory);
 }
 
 /// @param share  of the step at which the crossing was found.
@@ -197,7 +218,7 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
                                SeparationMemory& memory) {
   SeparationOptions options;
   // Poses within a step differ from the step's own by rounding.
-  options.margin = motion_error + error() + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
   options.resolution = resolution_;
   const TwoBodyMotion whole = motion_.motion(step);
   const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));

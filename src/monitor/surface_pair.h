@@ -27,7 +27,7 @@ class SurfacePair {
 
   bool isWithHalfSpace() const { return plane_.has_value(); }
 
-  /// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
+  /// Upper bound of the distance between the triangles, or plane, and the true surfaces, both bodies together [m].
   double deviation() const { return deviation_; }
 
   /// Surfaces closer than this, beyond the errors of triangles and motion, may remain undecided [m].
@@ -52,8 +52,9 @@ class SurfacePair {
     SeparationState state = SeparationState::kOpen;
     double clearance = 0.0;                ///< if apart: lower bound of the distance at the motion's end [m]
     std::optional<ContactPoint> crossing;  ///< if crossing
-    bool is_near = false;  ///< if open: the distance falls to at most all errors plus twice the resolution; against a
-                           ///< half-space, no point is deeper than that either
+    /// If open: the distance falls to at most all errors plus this [m]; infinite if that is not known. With a
+    /// half-space it is known, and no point is deeper than that either.
+    double open_within = kInfinity;
   };
 
   /// @param motion_error  upper bound of the error of the bodies' relative position [m].
@@ -84,7 +85,6 @@ class SurfacePair {
   bool isInsideDoubtful() const { return !plane_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
 
  private:
-  double error() const { return deviation_ + (plane_ ? plane_->deviation : 0.0); }
   Vector3d fromAToB(const Vector3d& from_f_to_p) const { return f_is_a_ ? from_f_to_p : Vector3d(-from_f_to_p); }
 
   /// The surfaces, with the caps that close openings or without.
@@ -92,6 +92,7 @@ class SurfacePair {
   Separation testCloser(bool closed, const TwoBodyMotion& motion, SeparationOptions options, SeparationMemory& memory);
   Answer decideBy(bool closed, double margin, SeparationMemory& memory);
   bool isBelowThroughout(double margin, SeparationMemory& memory);
+  bool isBelow(const TwoBodyMotion& motion, double start, double end, double margin, SeparationMemory& memory);
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
 
@@ -101,6 +102,7 @@ class SurfacePair {
   std::optional<BodyHalfSpace> plane_;  // F, if it is a half-space
   double deviation_;
   double resolution_;
+  int poses_left_ = 0;  // that may be tested against a half-space in this motion
   SeparationWitness witness_, closed_witness_;
 };
 

@@ -51,13 +51,14 @@ void SweptBodies::sweep(const CycleMotion& motion, int body) {
   const std::size_t last = motion.X_WB[body].size() == 1 ? swept.first + 1 : swept.last;
   swept.intervals.clear();
   swept.problem.clear();
-  swept.defect = swept.rounding = 0.0;
+  swept.defect = swept.rounding = swept.moved = 0.0;
   try {
     for (std::size_t k = swept.first; k < last; ++k) {
       const Isometry3d &X_WB_start = motion.pose(body, k), &X_WB_end = motion.pose(body, k + 1);
       requireNear(scene_.bodies[body].name, X_WB_start);
       requireNear(scene_.bodies[body].name, X_WB_end);
       const ScrewMotion screw(X_WB_start, X_WB_end);
+      swept.moved = std::max(swept.moved, (X_WB_end.translation() - X_WB_start.translation()).norm());
       swept.intervals.push_back({screw, worldTwist(screw, scene_.bodies[body].ball)});
     }
     for (std::size_t k = swept.first; k <= last; ++k) {

@@ -32,8 +32,12 @@ class SweptBodies {
   const WorldTwist& twist(int body, std::size_t waypoint) const { return at(body, waypoint).twist; }
 
   /// Error of a point from computing with the body's poses [m]: the deviation of the rotations from orthonormal ones
-  /// (times the distance `lever` [m] from the body's origin), and the rounding of the coordinates.
-  double poseError(int body, double lever) const { return bodies_[body].defect * lever + bodies_[body].rounding; }
+  /// (times the distance `lever` [m] from the body's origin and, as poses between two times are relative to the first
+  /// one, that by which the origin moves), and the rounding of the coordinates.
+  double poseError(int body, double lever) const {
+    const SweptBody& swept = bodies_[body];
+    return swept.defect * (lever + swept.moved) + swept.rounding;
+  }
 
  private:
   struct Interval {
@@ -47,6 +51,7 @@ class SweptBodies {
     std::string problem;
     double defect = 0.0;    ///< largest |RᵀR − 1| of its poses, with rounding
     double rounding = 0.0;  ///< of the poses' translations [m]
+    double moved = 0.0;     ///< most that the origin moves in an interval [m]
   };
 
   void sweep(const CycleMotion& motion, int body);

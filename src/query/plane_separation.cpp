@@ -10,9 +10,10 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kFiner = 0.02;   // of the resolution: accuracy of heights, and of chords in a short search
+constexpr double kFiner = 0.02;  // of the resolution: accuracy of heights, and of chords in a short search
+constexpr double kNoTarget = kInfinity;
 constexpr int kShortSearch = 64;  // poses
-constexpr double kPrune = 0.6;    // of the lowest known height above a target, as in separation()
+constexpr double kOpen = 0.4;     // of the lowest known height above a target: boxes lower by more are opened
 
 using Heights = std::array<double, BoxTree::Node::kWidth>;
 
@@ -61,18 +62,24 @@ struct LowestTriangle {
 /// Branch and bound over the boxes.
 class LowestSearch {
  public:
-  /// @param target    above it, heights need not be accurate: `at_least` is then above it too.
-  /// @param accuracy  of heights below it [m].
+  /// @param target    heights well above it need not be accurate: `at_least` is then above it too.
+  /// @param accuracy  of others; see lowestPoint().
   LowestSearch(const BoxTree& surface, const Upward& up, double target, double accuracy, SeparationMemory& memory)
       : surface_(surface), up_(up), target_(target), accuracy_(accuracy), memory_(memory) {}
 
   LowestTriangle run(int first_triangle) {
+    constexpr int kMany = 256;
+    constexpr double kBoxRoundings = 1e-6;  // of the radius: boxes of single precision are larger by less than that
     if (first_triangle >= 0) test(first_triangle);
     auto& pending = memory_.high_boxes;
     pending.assign(1, {-kInfinity, surface_.root().node});
     const double origin_height = up_.heightOf(surface_.origin());
-    while (!pending.empty()) {
+    for (int opened = 0; !pending.empty(); ++opened) {
       cancel_.check();
+      if (opened == kMany) {
+        accuracy_ = std::max(accuracy_, kBoxRoundings * surface_.ball().radius);
+        if (found_.triangle >= 0) setCut();
+      }
       const SeparationMemory::HighBox next = pending.back();
       pending.pop_back();
       if (next.height < cut_) {
@@ -92,8 +99,10 @@ class LowestSearch {
     if (!(height < found_.height)) return;
     found_.height = height;
     found_.triangle = i;
-    cut_ = height > target_ ? target_ + kPrune * (height - target_) : height - accuracy_;
+    setCut();
   }
+
+  void setCut() { cut_ = found_.height - std::max(accuracy_, kOpen * (found_.height - target_)); }
 
   /// The lowest box below is opened next.
   void open(const BoxTree::Node& node, double origin_height) {
@@ -116,7 +125,8 @@ class LowestSearch {
 
   const BoxTree& surface_;
   const Upward& up_;
-  const double target_, accuracy_;
+  const double target_;
+  double accuracy_;
   SeparationMemory& memory_;
   double cut_ = kInfinity;  // boxes higher than this are not opened
   LowestTriangle found_;
@@ -140,26 +150,30 @@ class PlaneQuery {
                         surface_.origin().norm() + surface_.ball().radius + std::abs(half_space_.offset);
     rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
     found_.distance = kInfinity;
-    const double at_end = lowestAt(1.0, X_end, 1.0);
+    const Low at_end = lowestAt(1.0, X_end, 1.0);
     if (!crossed_) testBetween({0.0, 1.0, lowestAt(0.0, X_start, 1.0), at_end});
     if (!crossed_) found_.state = open_ ? SeparationState::kOpen : SeparationState::kApart;
-    found_.is_near = open_ && left_open_ <= 2.0 * options_.resolution;
     return found_;
   }
 
  private:
-  /// Part of the motion, and lower bounds of the surface's heights at its ends.
+  /// The lowest height at one time.
+  struct Low {
+    double at_least, looseness;  // the height itself is higher than its lower bound by no more than the looseness [m]
+  };
+
+  /// Part of the motion.
   struct Part {
     double start, end;
-    double at_start, at_end;
+    Low at_start, at_end;
   };
 
   Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
 
   double chordError(double length) const { return motion_.acceleration * length * length / 8.0; }
 
-  /// Tests one pose. @param length  of the interval that it ends. @return a lower bound of the heights.
-  double lowestAt(double s, const Isometry3d& X_FP, double length) {
+  /// Tests one pose. @param length  of the interval that it ends.
+  Low lowestAt(double s, const Isometry3d& X_FP, double length) {
     ++found_.tests;
     const Upward up(half_space_, X_FP);
     const double target = options_.margin + chordError(length) + rounding_;
@@ -167,7 +181,7 @@ class PlaneQuery {
     const LowestTriangle lowest = search.run(witness_.near_b);
     witness_.near_b = lowest.triangle;
     if (lowest.height + rounding_ < -options_.margin) setCrossing(s, X_FP, up, lowest);
-    return lowest.at_least;
+    return {lowest.at_least, lowest.height - lowest.at_least};
   }
 
   void setCrossing(double s, const Isometry3d& X_FP, const Upward& up, const LowestTriangle& lowest) {
@@ -182,19 +196,21 @@ class PlaneQuery {
   void testBetween(const Part& part) {
     if (crossed_) return;
     const double length = part.end - part.start, error = chordError(length);
-    const double apart = std::min(part.at_start, part.at_end) - error - rounding_;
+    const Low& lower = part.at_start.at_least < part.at_end.at_least ? part.at_start : part.at_end;
+    const double apart = lower.at_least - error - rounding_;
     if (apart > options_.margin) {
       found_.distance = std::min(found_.distance, apart);
       return;
     }
     const bool is_short = !open_ && found_.tests < kShortSearch;
     if (error <= (is_short ? kFiner : 1.0) * options_.resolution || found_.tests > options_.max_tests) {
+      const double within = error + lower.looseness + 2.0 * rounding_;
+      found_.open_within = open_ ? std::max(found_.open_within, within) : within;
       open_ = true;
-      left_open_ = std::max(left_open_, error + kFiner * options_.resolution + 2.0 * rounding_);
       return;
     }
     const double middle = 0.5 * (part.start + part.end);
-    const double at_middle = lowestAt(middle, poseAt(middle), 0.5 * length);
+    const Low at_middle = lowestAt(middle, poseAt(middle), 0.5 * length);
     testBetween({middle, part.end, at_middle, part.at_end});  // what touches at its end usually touches later too
     testBetween({part.start, middle, part.at_start, at_middle});
   }
@@ -206,7 +222,6 @@ class PlaneQuery {
   SeparationWitness& witness_;
   SeparationMemory& memory_;
   double rounding_ = 0.0;
-  double left_open_ = 0.0;  // upper bound of how far the lowest heights left open are from the margin [m]
   bool crossed_ = false, open_ = false;
   Separation found_;
 };
@@ -216,7 +231,7 @@ class PlaneQuery {
 LowestPoint lowestPoint(const HalfSpace& half_space, const BoxTree& surface, const Isometry3d& X_FP, double accuracy,
                         SeparationWitness& witness, SeparationMemory& memory) {
   const Upward up(half_space, X_FP);
-  const LowestTriangle lowest = LowestSearch(surface, up, kInfinity, accuracy, memory).run(witness.near_b);
+  const LowestTriangle lowest = LowestSearch(surface, up, kNoTarget, accuracy, memory).run(witness.near_b);
   witness.near_b = lowest.triangle;
   const RoundedTriangle& t = surface.triangle(lowest.triangle);
   return {lowest.height, lowest.at_least, X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space.normal};

@@ -392,7 +392,7 @@ class SeparationQuery {
 
   /// kApart can no longer be proved; a crossing still can.
   void leaveOpen(bool is_near) {
-    found_.is_near |= is_near;
+    if (is_near) found_.open_within = 2.0 * options_.resolution;
     if (open_) return;
     open_ = true;
     limit_ = std::min(options_.max_tests, tests_ + kMaxTestsWhenOpen);

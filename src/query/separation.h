@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/infinity.h"
 #include "geometry/box_tree.h"
 #include "lanes/triangle_pairs.h"
 #include "motion/chords.h"
@@ -35,7 +36,9 @@ struct Separation {
   Vector3d p_A = Vector3d::Zero();  ///< if crossing: a point on one surface, in or on the other, up to rounding [m]
   Vector3d normal_A = Vector3d::UnitZ();  ///< unit normal of a triangle there; its sign is arbitrary
   int tests = 0;  ///< number of triangle pairs tested; may exceed SeparationOptions::max_tests by the last groups
-  bool is_near = false;  ///< if open: at some time their distance is at most the margin plus twice the resolution
+  /// If open: at some time their distance is at most this beyond the margin [m], which is twice the resolution;
+  /// infinite if that is not known.
+  double open_within = kInfinity;
 };
 
 /// The memory of a running query.
@@ -85,7 +88,7 @@ struct SeparationMemory {
 /// Subtracted for rounding: kBoxRounding, and 32 ε of the coordinates for triangles: transforming a corner takes four
 /// roundings of coordinates of A's frame per axis (√3 · 4), its dot product with n three, and n's length two.
 ///
-/// Why is_near holds. Triangles are left open if the gap along the direction n of their closest points, with B's
+/// Why open_within holds. Triangles are left open if the gap along the direction n of their closest points, with B's
 /// corners at the middles of their chords, is at most the margin, and these corners move by at most m over the
 /// interval, with m + e ≤ resolution. With d the distance of those closest points, n·q − n·x is at least
 /// d − m/2 at both ends, so d ≤ margin + e + m/2. Halfway in time B is within e of these middles: the distance is
