@@ -17,6 +17,7 @@
 #include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "joint_kind.h"
+#include "misplaced_elements.h"
 
 namespace sdf_ccd {
 namespace {
@@ -95,6 +96,10 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
   warnOfMacros(document, warnings);
+  if (const tinyxml2::XMLElement* robot = document.RootElement()) {
+    const std::vector<std::string> misplaced = misplacedElements(*robot);
+    warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());
+  }
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
   return printer.CStr();

@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include "common/text_limits.h"
+#include "misplaced_elements.h"
 #include "parse_urdf.h"
 
 namespace sdf_ccd {
@@ -40,6 +41,7 @@ std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model
     const char* name = link->Attribute("name");
     const auto read = name ? model.getLink(name) : nullptr;
     if (!read) continue;
+    if (const std::string misplaced = misplacedShape(*link); !misplaced.empty()) reasons[name] = misplaced;
     const std::size_t written = countChildren(*link, "collision");
     if (read->collision_array.size() == written) continue;
     reasons[name] = "line " + std::to_string(link->GetLineNum()) +

@@ -364,5 +364,25 @@ TEST(RobotModel, MacrosThatWereNotExpandedAreNamed) {
                   .empty());
 }
 
+TEST(RobotModel, ElementsThatTheParserPassesOverAreNamed) {
+  const auto warnings = [](const std::string& of_joint, const std::string& of_robot) {
+    return RobotModel(
+               "<robot name='r'><link name='a'/><link name='b'/>\n<joint name='j' type='fixed'>"
+               "<parent link='a'/><child link='b'/>" +
+               of_joint + "</joint>\n" + of_robot + "</robot>")
+        .warnings();
+  };
+  EXPECT_TRUE(warnings("<origin xyz='1 0 0'/><limit effort='1' velocity='1'/>",
+                       "<transmission><joint name='j'><limit/></joint></transmission><gazebo><Link/></gazebo>")
+                  .empty());
+  EXPECT_EQ(warnings("<Origin xyz='1 0 0'/>", ""),
+            std::vector<std::string>{"line 2 of the URDF: <Origin> is ignored: it must be <origin>"});
+  EXPECT_EQ(warnings("<origin xyz='1 0 0'/><origin xyz='2 0 0'/>", ""),
+            std::vector<std::string>{"line 2 of the URDF: <origin> is ignored: its <joint> has one already"});
+  EXPECT_EQ(warnings("", "<Link name='c'/><axis/>"),
+            (std::vector<std::string>{"line 3 of the URDF: <Link> is ignored: it must be <link>",
+                                      "line 3 of the URDF: <axis> in <robot> is ignored: it belongs in <joint>"}));
+}
+
 }  // namespace
 }  // namespace sdf_ccd

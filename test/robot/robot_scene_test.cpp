@@ -1,5 +1,6 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -146,6 +147,49 @@ TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
   EXPECT_NE(failures["capsule"].find("capsule"), std::string::npos);
   EXPECT_NE(failures["empty"].find("1 of 1 collision elements"), std::string::npos);
   EXPECT_NE(failures["heavy"].find("much"), std::string::npos);
+}
+
+TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
+  const std::string cube = box("0.1 0.1 0.1"), sphere = "<sphere radius='1'/>";
+  const std::string visual =
+      "<visual><geometry>" + sphere + sphere + "</geometry></visual><contact><lateral/></contact>";
+  const std::vector<std::array<std::string, 3>> links = {
+      // name, what is inside, the failure
+      {"good",
+       "<inertial><origin xyz='0 0 0'/><mass value='1'/>"
+       "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>" +
+           visual + "<!-- <Box/> -->" + cube,
+       ""},
+      {"two", "<collision><geometry>" + sphere + "\n<cylinder radius='1' length='1'/></geometry></collision>",
+       "line 3 of the URDF: <cylinder> is ignored: its <geometry> has a shape already"},
+      {"twice", "<collision><geometry>" + sphere + "</geometry><geometry>" + sphere + "</geometry></collision>",
+       "<geometry> is ignored: its <collision> has one already"},
+      {"case", cube + "<Collision><geometry>" + sphere + "</geometry></Collision>",
+       "<Collision> is ignored: it must be <collision>"},
+      {"moved", "<collision><Origin xyz='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
+       "<Origin> is ignored: it must be <origin>"},
+      {"bare", "<geometry>" + sphere + "</geometry>",
+       "<geometry> in <link> is ignored: it belongs in <collision> or <visual>"},
+      {"seen",
+       "<visual><geometry>" + sphere + "</geometry><collision><geometry>" + sphere + "</geometry></collision></visual>",
+       "<collision> in <visual> is ignored: it belongs in <link>"},
+      {"listed", "<collisions><collision><geometry>" + sphere + "</geometry></collision></collisions>",
+       "<collision> in <collisions> is ignored: it belongs in <link>"},
+      {"direct", "<collision>" + sphere + "<geometry>" + sphere + "</geometry></collision>",
+       "<sphere> in <collision> is ignored: it belongs in <geometry>"}};
+  std::string urdf = "<robot name='r'>\n";
+  for (const auto& [name, inside, failure] : links) {
+    urdf += link(name, inside);
+    if (name != "good") urdf += joint("good", name, "floating", "0 0 0");
+  }
+  const Described described = describe(urdf + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), links.size());
+  std::map<std::string, std::string> failures;
+  for (const BodyDescription& body : described.scene.bodies) failures[body.name] = body.failure;
+  EXPECT_EQ(failures["good"], "");
+  for (const auto& [name, inside, failure] : links)
+    EXPECT_TRUE(failures[name].find(failure) != std::string::npos) << name << ": " << failures[name];
+  EXPECT_TRUE(described.warnings.empty());
 }
 
 TEST(RobotScene, LinksWhoseNamesAreNotTextLoseNoElementUnnoticed) {

@@ -1,0 +1,92 @@
+#include "misplaced_elements.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "common/shown_text.h"
+
+namespace sdf_ccd {
+namespace {
+
+using tinyxml2::XMLElement;
+
+/// Elements that say which shapes a robot has, and where they are; by name, what they belong in.
+const std::map<std::string, std::set<std::string>> kParents = {{"link", {"robot"}},
+                                                               {"joint", {"robot"}},
+                                                               {"collision", {"link"}},
+                                                               {"geometry", {"collision", "visual"}},
+                                                               {"box", {"geometry"}},
+                                                               {"sphere", {"geometry"}},
+                                                               {"cylinder", {"geometry"}},
+                                                               {"mesh", {"geometry"}},
+                                                               {"origin", {"collision", "inertial", "joint", "visual"}},
+                                                               {"parent", {"joint"}},
+                                                               {"child", {"joint"}},
+                                                               {"axis", {"joint"}},
+                                                               {"limit", {"joint"}},
+                                                               {"mimic", {"joint"}}};
+
+constexpr std::size_t kMost = 10;  // lines of a robot
+
+std::string inLowerCase(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return name;
+}
+
+/// Why urdfdom ignores an element of one of these names; empty if it does not.
+std::string whyIgnored(const XMLElement& element, const std::string& parent) {
+  const std::string written = element.Name(), name = inLowerCase(written);
+  const auto known = kParents.find(name);
+  if (known == kParents.end()) return {};
+  const std::string line = "line " + std::to_string(element.GetLineNum()) + " of the URDF: <" + written + "> ";
+  if (known->second.count(inLowerCase(parent)) == 0) {
+    std::string places;
+    for (const std::string& place : known->second) places += (places.empty() ? "<" : " or <") + place + ">";
+    return line + "in <" + shownText(parent) + "> is ignored: it belongs in " + places;
+  }
+  const bool is_shape = parent == "geometry";
+  if (is_shape && element.PreviousSiblingElement()) return line + "is ignored: its <geometry> has a shape already";
+  if (is_shape) return {};  // the parser reports it, if it cannot be read
+  if (written != name) return line + "is ignored: it must be <" + name + ">";
+  const bool can_be_many = name == "link" || name == "joint" || name == "collision";
+  if (can_be_many || !element.PreviousSiblingElement(name.c_str())) return {};
+  return line + "is ignored: its <" + parent + "> has one already";
+}
+
+/// @param is_read  whether all of the parent's elements matter; otherwise only collision shapes.
+std::string firstIgnored(const XMLElement& parent, bool is_read) {
+  for (auto element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    const std::string name = element->Name(), lower = inLowerCase(name);
+    const bool is_visuals = lower == "geometry" && inLowerCase(parent.Name()) == "visual";
+    if (is_visuals) continue;
+    if (is_read || lower == "collision" || lower == "geometry") {
+      if (std::string why = whyIgnored(*element, parent.Name()); !why.empty()) return why;
+    }
+    if (std::string why = firstIgnored(*element, name == "collision" || name == "geometry"); !why.empty()) return why;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string misplacedShape(const XMLElement& link) {
+  return firstIgnored(link, true);
+}
+
+std::vector<std::string> misplacedElements(const XMLElement& robot) {
+  std::vector<std::string> lines;
+  const auto add = [&](const XMLElement& element, const std::string& parent) {
+    if (lines.size() >= kMost) return;
+    if (std::string why = whyIgnored(element, parent); !why.empty()) lines.push_back(std::move(why));
+  };
+  for (auto element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
+    add(*element, "robot");
+    if (element->Name() != std::string("joint")) continue;
+    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement()) add(*part, "joint");
+  }
+  return lines;
+}
+
+}  // namespace sdf_ccd

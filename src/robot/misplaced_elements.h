@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tinyxml2.h>
+
+namespace sdf_ccd {
+
+/// The first element of a link that urdfdom ignores without an error though it is, or places, a collision shape: one
+/// whose name has the wrong case, at a wrong place, or the second where there can be one. Empty if there is none.
+std::string misplacedShape(const tinyxml2::XMLElement& link);
+
+/// The same for elements of the robot itself and of its joints; a line each, for the first ten.
+std::vector<std::string> misplacedElements(const tinyxml2::XMLElement& robot);
+
+}  // namespace sdf_ccd
