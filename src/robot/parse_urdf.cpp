@@ -12,12 +12,11 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include "common/counted.h"
 #include "common/number_text.h"
-#include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "joint_kind.h"
 #include "misplaced_elements.h"
+#include "unexpanded_macros.h"
 
 namespace sdf_ccd {
 namespace {
@@ -50,43 +49,6 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
-/// The first attribute that holds an expression of xacro; empty if none does.
-std::string unexpandedValue(const tinyxml2::XMLElement& element) {
-  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
-    const std::string value = attribute->Value();
-    if (value.find("${") != std::string::npos) return std::string(attribute->Name()) + "=\"" + value + "\"";
-  }
-  return {};
-}
-
-/// Other readers of URDF ignore macros of xacro that were not expanded, too; but the links that they stand for are
-/// missing. Definitions do no harm.
-void warnOfMacros(const tinyxml2::XMLDocument& document, std::vector<std::string>& warnings) {
-  const auto isDefinition = [](const std::string& name) {
-    return name == "xacro:macro" || name == "xacro:property" || name == "xacro:arg";
-  };
-  std::string first;
-  std::size_t count = 0;
-  std::vector<const tinyxml2::XMLElement*> left = {document.RootElement()};
-  while (!left.empty()) {
-    const tinyxml2::XMLElement* element = left.back();
-    left.pop_back();
-    if (!element) continue;
-    const std::string name = element->Name();
-    left.push_back(element->NextSiblingElement());
-    if (isDefinition(name)) continue;
-    left.push_back(element->FirstChildElement());
-    const std::string value = unexpandedValue(*element);
-    if (name.rfind("xacro:", 0) != 0 && value.empty()) continue;
-    if (++count > 1) continue;
-    first = "line " + std::to_string(element->GetLineNum()) + ": " +
-            (value.empty() ? "<" + shownText(name) + "> is ignored" : shownText(value) + " is taken as it is");
-  }
-  if (count == 0) return;
-  const std::string others = count == 1 ? "" : " with " + counted(count - 1, "other");
-  warnings.push_back("the URDF's " + first + others + ": xacro has not expanded it, and what it stands for is missing");
-}
-
 /// The document as written by tinyxml2: urdfdom's XML reader reads beyond the end of some damaged documents.
 std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
   requireXmlSize(xml);
@@ -95,7 +57,7 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
-  warnOfMacros(document, warnings);
+  if (const std::string macros = unexpandedMacros(document, "URDF"); !macros.empty()) warnings.push_back(macros);
   if (const tinyxml2::XMLElement* robot = document.RootElement()) {
     const std::vector<std::string> misplaced = misplacedElements(*robot);
     warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());

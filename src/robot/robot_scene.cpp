@@ -113,6 +113,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
   }
   warnOfVisualOnly(scene.visual_only, warnings);
   warnings.insert(warnings.end(), robot.warnings().begin(), robot.warnings().end());
+  warnings.insert(warnings.end(), srdf.warnings.begin(), srdf.warnings.end());
   if (!srdf.robot.empty() && srdf.robot != robot.urdf().getName()) {
     warnings.push_back("the SRDF is of robot " + srdf.robot + ", the URDF of robot " + robot.urdf().getName() +
                        ": its allowed pairs may belong to another robot");

@@ -6,6 +6,7 @@
 
 #include "common/text_limits.h"
 #include "error_source.h"
+#include "unexpanded_macros.h"
 
 namespace sdf_ccd {
 namespace {
@@ -34,6 +35,7 @@ Srdf readSrdf(const std::string& xml) {
   }
 
   Srdf srdf;
+  if (const std::string macros = unexpandedMacros(document, "SRDF"); !macros.empty()) srdf.warnings.push_back(macros);
   if (const char* whose = robot->Attribute("name")) srdf.robot = whose;
   for (const XMLElement* element = robot->FirstChildElement(); element; element = element->NextSiblingElement()) {
     const std::string name = element->Name();
@@ -49,6 +51,10 @@ Srdf readSrdf(const std::string& xml) {
       srdf.virtual_joints[attribute(*element, "name")] = attribute(*element, "child_link");
     }
   }
+  const bool is_empty =
+      srdf.disabled.empty() && srdf.disabled_by_default.empty() && srdf.virtual_joints.empty() && srdf.enabled.empty();
+  if (is_empty && robot->FirstChildElement("link"))
+    srdf.warnings.push_back("the SRDF is a URDF: it has links, and nothing that is read from an SRDF");
   return srdf;
 }
 

@@ -48,6 +48,7 @@ std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::s
   std::set<std::string> named(srdf.disabled_by_default.begin(), srdf.disabled_by_default.end());
   for (const AllowedPair& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
   for (const auto& [a, b] : srdf.enabled) named.insert({a, b});
+  for (const auto& [joint, child] : srdf.virtual_joints) named.insert(child);
   for (const std::string& link : links) named.erase(link);
   std::vector<std::string> unknown;
   for (const std::string& name : named) {

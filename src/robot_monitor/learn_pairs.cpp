@@ -228,6 +228,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const BodyOptions scene_options = sceneOptions(options.max_error);
   const auto start = Clock::now();
   LearnedPairs pairs;
+  pairs.warnings = srdf.warnings;
   pairs.states = options.states;
   pairs.always_states = std::min(options.states, kAlways);
   pairs.recorded = options.recorded.size();

@@ -269,6 +269,16 @@ TEST(RobotScene, AnSrdfOfAnotherRobotIsTold) {
   EXPECT_TRUE(describe(chain(), parseSrdf("<robot/>")).warnings.empty());
 }
 
+TEST(RobotScene, AnSrdfsOwnWarningsAndUnknownLinksAreTold) {
+  const Described described = describe(
+      chain(), parseSrdf("<robot><virtual_joint name='world' type='fixed' parent_frame='map' child_link='torso'/>"
+                         "<disable_collisions link1='${p}a' link2='b'/></robot>"));
+  ASSERT_EQ(described.warnings.size(), 3u);
+  EXPECT_NE(described.warnings[0].find("the SRDF's line 1: link1=\"${p}a\" is taken as it is"), std::string::npos);
+  EXPECT_EQ(described.warnings[1], "the SRDF names link ${p}a, which the URDF does not have");
+  EXPECT_EQ(described.warnings[2], "the SRDF names link torso, which the URDF does not have");
+}
+
 TEST(RobotScene, SrdfMayNamePatterns) {
   Srdf srdf;
   srdf.disabled = {{"a", "?", "SRDF: Never"}, {"x*", "a", "SRDF: Never"}};

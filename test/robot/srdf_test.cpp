@@ -51,5 +51,17 @@ TEST(Srdf, DeepAndLargeTextsAreRefused) {
   EXPECT_NE(failure(std::string(std::size_t{65} << 20, ' ')).find("larger than 64 MiB"), std::string::npos);
 }
 
+TEST(Srdf, TextThatIsNoneOrIsNotExpandedIsTold) {
+  EXPECT_TRUE(parseSrdf("<robot name='r'/>").warnings.empty());
+  EXPECT_TRUE(parseSrdf("<robot name='r'><group name='all'/></robot>").warnings.empty());
+  EXPECT_EQ(parseSrdf("<robot name='r'><link name='a'/></robot>").warnings,
+            std::vector<std::string>{"the SRDF is a URDF: it has links, and nothing that is read from an SRDF"});
+  EXPECT_EQ(parseSrdf("<robot name='r' xmlns:xacro='x'>\n<xacro:arm/><disable_collisions link1='${p}a' link2='b'/>"
+                      "</robot>")
+                .warnings,
+            std::vector<std::string>{"the SRDF's line 2: <xacro:arm> is ignored with 1 other: xacro has not expanded "
+                                     "it, and what it stands for is missing"});
+}
+
 }  // namespace
 }  // namespace sdf_ccd

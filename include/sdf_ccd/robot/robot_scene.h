@@ -43,6 +43,7 @@ struct Srdf {
   std::vector<std::string> disabled_by_default;              ///< links that are only checked against those of `enabled`
   std::map<std::string, std::string> virtual_joints;         ///< child link by name; parent frame and type are not used
   std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency
+  std::vector<std::string> warnings;                         ///< what the text lacks that an SRDF should have
 };
 
 /// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `virtual_joint`. As in MoveIt, a
@@ -65,7 +66,8 @@ struct RobotSceneOptions {
 /// of reach of each other for all joint positions, by RobotModel::reach() between balls around their geometry. The
 /// assumptions of the first and the last must be monitored: unreachablePairs().
 /// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
-/// robot's name or with links that the robot does not have; RobotModel::warnings(). Failures are not repeated here.
+/// robot's name or with links that the robot does not have; RobotModel::warnings(), Srdf::warnings. Failures are not
+/// repeated here.
 /// @throws std::length_error if the links are more than 300,000 pairs; Cancelled.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                                const RobotSceneOptions& options, std::vector<std::string>& warnings);
