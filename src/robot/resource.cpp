@@ -69,9 +69,10 @@ Spelling spellingOnDisk(const fs::path& path) {
 }
 
 /// The path with every component as it is spelled on disk.
-fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, std::string& warning) {
+/// @param hint  for the user, if there is no such file.
+fs::path spelledAsOnDisk(const fs::path& path, const std::string& uri, const std::string& hint, std::string& warning) {
   const Spelling found = spellingOnDisk(path);
-  if (!found.missing.empty()) fail(uri, "no such file (" + found.missing.string() + " does not exist)");
+  if (!found.missing.empty()) fail(uri, "no such file (" + found.missing.string() + " does not exist)" + hint);
   if (!path.has_filename()) fail(uri, "is a directory");
   if (!found.differences.empty()) warning = shownText(uri) + ": " + found.differences;
   return found.path;
@@ -108,6 +109,10 @@ fs::path localPath(const std::string& uri, const PackageFinder& packages, const 
     const fs::path path = uri.substr(std::string("file://").size());
     if (!path.is_absolute()) fail(uri, "a file:// URI needs an absolute path");
     return path;
+  }
+  if (startsWith(uri, "http://") || startsWith(uri, "https://")) {
+    fail(uri,
+         "http and https are only downloaded if the parameter allow_http is true (sdf_ccd reads it from --config)");
   }
   const std::size_t scheme = uri.find("://");
   if (scheme != std::string::npos) fail(uri, "scheme " + uri.substr(0, scheme) + ":// is not supported");
@@ -147,7 +152,11 @@ fs::path fileOf(const std::string& uri, const PackageFinder& packages, const std
 Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory) {
   Resource resource;
   const fs::path wanted = fileOf(uri, packages, base_directory);
-  const fs::path path = spelledAsOnDisk(fs::absolute(wanted), uri, resource.warning);
+  const std::string hint =
+      base_directory.empty() && wanted.is_relative()
+          ? ": no folder is known that the name is relative to; a robot_description needs package:// or file://"
+          : "";
+  const fs::path path = spelledAsOnDisk(fs::absolute(wanted), uri, hint, resource.warning);
   resource.bytes = readFile(path, uri);
   resource.name = path.string();
   return resource;

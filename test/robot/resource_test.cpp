@@ -129,9 +129,17 @@ TEST_F(ResourceFiles, FailuresNameTheUriAndTheReason) {
       EXPECT_EQ(failure.find_first_of("\n\033"), std::string::npos);
     }
   }
-  EXPECT_NE(failure("http://example.org/x.stl").find("http:// is not supported"), std::string::npos);
+  EXPECT_NE(failure("ftp://example.org/x.stl").find("ftp:// is not supported"), std::string::npos);
+  EXPECT_NE(failure("https://example.org/x.stl").find("allow_http"), std::string::npos);
   EXPECT_NE(failure("file://x.stl").find("absolute"), std::string::npos);
   EXPECT_NE(failure("").find("empty"), std::string::npos);
+}
+
+TEST_F(ResourceFiles, RelativeNamesNeedAKnownFolder) {
+  const std::string hint = "robot_description needs package:// or file://";
+  EXPECT_NE(test::failureOf([&] { loadLocalResource("none/x.stl", find_, ""); }).find(hint), std::string::npos);
+  for (const char* uri : {"none/x.stl", "/none/x.stl", "package://arm_description/x.stl"})
+    EXPECT_EQ(failure(uri).find(hint), std::string::npos) << failure(uri);
 }
 
 TEST_F(ResourceFiles, PipesAreNotReadFrom) {

@@ -31,11 +31,7 @@ std::vector<AllowedPair> provedPairs(const SceneDescription& scene) {
 
 ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
   return [packages, directory, allow_http](const std::string& uri) {
-    if (!isHttp(uri)) return loadLocalResource(uri, packages, directory);
-    if (!allow_http) {
-      throw std::runtime_error(shownText(uri) +
-                               ": http and https are only downloaded if the parameter allow_http is true");
-    }
+    if (!allow_http || !isHttp(uri)) return loadLocalResource(uri, packages, directory);
     try {
       return Resource{fetchHttp(uri), uri, ""};
     } catch (const std::exception& error) {
