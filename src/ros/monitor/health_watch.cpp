@@ -7,6 +7,7 @@
 #include "common/number_text.h"
 #include "monitor/over_budget.h"
 #include "ros/monitor/unchecked.h"
+#include "ros/tf/prefix_hint.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -73,7 +74,7 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
   watchLate(loop, now);
   watchFixedFrame(loop, now);
   const std::string body = health_.missing.empty() ? "" : uncheckedCause(loop);
-  watchUnchecked(body, result.not_checked > 0 ? uncheckedPair(loop) : "");
+  watchUnchecked(loop, body, result.not_checked > 0 ? uncheckedPair(loop) : "");
 }
 
 void HealthWatch::recordTrigger(const std::string& awaited_frame) {
@@ -95,7 +96,7 @@ void HealthWatch::recordTrigger(const std::string& awaited_frame) {
 void HealthWatch::recordStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;
-  watchUnchecked(reason, uncheckedCause(loop));
+  watchUnchecked(loop, reason, uncheckedCause(loop));
 }
 
 void HealthWatch::restart() {
@@ -120,7 +121,7 @@ void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& 
   health_.moving_frame = warning;  // kept from then on, also while the robot rests
 }
 
-void HealthWatch::watchUnchecked(const std::string& cause, const std::string& other) {
+void HealthWatch::watchUnchecked(const MonitorLoop& loop, const std::string& cause, const std::string& other) {
   const ros::WallTime now = ros::WallTime::now();  // a simulated clock may not run
   if (cause.empty() && other.empty()) {
     unchecked_since_ = ros::WallTime();
@@ -133,6 +134,10 @@ void HealthWatch::watchUnchecked(const std::string& cause, const std::string& ot
   std::string all = cause;
   const auto add = [&](const std::string& line) { all += (all.empty() || line.empty() ? "" : "; ") + line; };
   add(other);
+  std::vector<std::string> frames;
+  for (const Body& body : loop.scene().bodies)
+    if (!body.is_world) frames.push_back(body.frame);
+  add(prefixHint(frames, loop.history().frames()));
   for (const std::string& line : health_.bad_joints) add(line);
   ROS_WARN("Not checked: %s", all.c_str());
 }

@@ -37,7 +37,7 @@ class HealthWatch {
   void countPairs(const Scene& scene);
   void measureRate(const ros::WallTime& now);
   void watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now);
-  void watchUnchecked(const std::string& cause, const std::string& other);
+  void watchUnchecked(const MonitorLoop& loop, const std::string& cause, const std::string& other);
   void watchLate(const MonitorLoop& loop, const ros::WallTime& now);
 
   MonitorHealth health_;

@@ -35,6 +35,7 @@ class MonitorLoop {
               const MonitorParameters& parameters);
 
   TfHistory& history() { return history_; }
+  const TfHistory& history() const { return history_; }
   const Scene& scene() const { return monitor_.scene(); }
   const std::shared_ptr<const CheckedWorld>& world() const { return world_; }
   const std::string& fixedFrame() const { return history_.fixedFrame(); }

@@ -209,6 +209,14 @@ bool TfHistory::takeJump() {
   return std::exchange(jumped_, false);
 }
 
+std::vector<std::string> TfHistory::frames() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> names;
+  for (int frame = 0; frame < static_cast<int>(tree_.size()); ++frame)
+    if (tree_.parent(frame) != TfTree::kNone) names.push_back(tree_.name(frame));
+  return names;
+}
+
 TfIgnored TfHistory::ignored() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   TfIgnored ignored = ignored_;

@@ -90,6 +90,9 @@ class TfHistory {
   /// The frames above a frame, the nearest first.
   std::vector<std::string> framesAbove(const std::string& frame) const;
 
+  /// All frames of which a transform is known.
+  std::vector<std::string> frames() const;
+
   TfIgnored ignored() const;
 
   /// True once after a followed frame has become the child of a frame whose static transform may have been dropped: the
