@@ -44,6 +44,23 @@ std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<s
   return pairs;
 }
 
+TEST(DescribeScene, LinksOfOneFrameAreRefused) {
+  MonitorParameters parameters = cart();
+  const auto failure = [&] {
+    return test::failureOf([&] { describeScene(parameters, [](const std::string&) { return Resource(); }); });
+  };
+  const auto rename = [&](const std::string& from, const std::string& to) {
+    for (std::size_t at; (at = parameters.urdf.find('"' + from + '"')) != std::string::npos;)
+      parameters.urdf.replace(at + 1, from.size(), to);
+  };
+  rename("wheel", "/wheel");
+  EXPECT_EQ(failure(), "");
+  rename("caster", "wheel");
+  EXPECT_EQ(failure(), "the links wheel and /wheel have the same tf frame, wheel");
+  parameters.tf_prefix = "cart";
+  EXPECT_EQ(failure(), "") << "as frames, they differ";
+}
+
 TEST(DescribeScene, NamesOfALiveMapsTilesAreItsOwn) {
   const auto failureOf = [](const MonitorParameters& parameters) {
     return test::failureOf<std::invalid_argument>(

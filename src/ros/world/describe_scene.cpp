@@ -1,6 +1,7 @@
 #include "ros/world/describe_scene.h"
 
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "common/shown_text.h"
@@ -14,6 +15,17 @@ namespace {
 
 bool isHttp(const std::string& uri) {
   return uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0;
+}
+
+/// tf ignores leading slashes.
+void requireOwnFrames(const RobotFrames& frames) {
+  std::map<std::string, std::string> link_of;  // by frame
+  for (const std::string& link : frames.robot.links()) {
+    const auto [first, is_new] = link_of.emplace(frames(link), link);
+    if (is_new) continue;
+    throw std::runtime_error("the links " + shownText(first->second) + " and " + shownText(link) +
+                             " have the same tf frame, " + shownText(first->first));
+  }
 }
 
 /// With the reasons that they have without the SRDF.
@@ -49,6 +61,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   described.robot = robot;
   described.root_frame = prefix + robot->root();
   described.tf_prefix = prefix;
+  requireOwnFrames(described.frames());
   for (const auto& [name, child] : srdf.virtual_joints) {
     if (child == robot->root()) described.base_joint = name;
   }
