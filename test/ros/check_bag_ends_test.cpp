@@ -281,6 +281,16 @@ TEST_F(CheckBag, JointsThatNoJointStateNamesAreNamed) {
   EXPECT_EQ(complete.error.find("never gives"), std::string::npos) << complete.error;
 }
 
+TEST_F(CheckBag, ThePlanIsATableIfItLeavesOutAllPairs) {
+  write("none.yaml", readText(path("arm.yaml")) + "allowed_pairs: [[\"*\", \"*\"]]\n");
+  const ToolRun result = run(check("arm.bag", "no", "--config none.yaml"));
+  EXPECT_EQ(result.exit_code, kBadInput) << result.error;
+  EXPECT_NE(result.error.find("\nsdf_ccd: arm.bag: nothing could be checked, as all pairs are left out\n"),
+            std::string::npos)
+      << result.error;
+  EXPECT_NE(result.error.find("\nhand "), std::string::npos) << result.error;
+}
+
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
   const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
   write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +
