@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <csignal>
 
+#include <rosbag/view.h>
+
 #include "ros/check_bag_case.h"
+#include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
 
 namespace sdf_ccd {
@@ -291,12 +294,54 @@ TEST_F(CheckBag, ThePlanIsATableIfItLeavesOutAllPairs) {
   EXPECT_NE(result.error.find("\nhand "), std::string::npos) << result.error;
 }
 
+TEST_F(CheckBag, JointStatesGiveWhatTfLacks) {
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  const std::string contacts = readText(path("made/contacts.csv"));
+  {
+    rosbag::Bag tf(path("made/checked.bag").string()), mixed(path("mixed.bag").string(), rosbag::bagmode::Write);
+    rosbag::Bag joints(path("arm.bag").string());
+    for (const rosbag::MessageInstance& message : rosbag::View(tf)) {
+      const auto moved = message.instantiate<tf2_msgs::TFMessage>();
+      if (!moved) continue;
+      auto& all = moved->transforms;
+      const auto isForearm = [](const auto& transform) { return transform.child_frame_id == "forearm"; };
+      all.erase(std::remove_if(all.begin(), all.end(), isForearm), all.end());
+      mixed.write(message.getTopic(), message.getTime(), *moved);
+    }
+    for (const rosbag::MessageInstance& message : rosbag::View(joints)) {
+      mixed.write("joint_states", message.getTime(), *message.instantiate<sensor_msgs::JointState>());
+      sensor_msgs::JointState other;
+      other.name = {"finger"};
+      mixed.write("others", message.getTime(), other);
+    }
+  }
+  const ToolRun filled = run(check("mixed.bag", "filled"));
+  EXPECT_EQ(filled.exit_code, kDone) << filled.error;
+  EXPECT_NE(filled.out.find("followed by tf, joint_states for 1 link\n"), std::string::npos) << filled.out;
+  EXPECT_EQ(readText(path("filled/contacts.csv")), contacts);
+  EXPECT_EQ(filled.error.find("warning"), std::string::npos) << filled.error;
+
+  const ToolRun chosen = run(check("mixed.bag", "chosen", "--joint-states /joint_states"));
+  EXPECT_EQ(chosen.exit_code, kDone) << chosen.error;
+  EXPECT_NE(chosen.out.find("followed by joint_states\n"), std::string::npos) << chosen.out;
+  EXPECT_EQ(readText(path("chosen/contacts.csv")), contacts);
+  expectRefused(check("mixed.bag", "no", "--joint-states others"),
+                "others is not about the robot, its joints are finger");
+  expectRefused(check("mixed.bag", "no", "--joint-states none"), "it contains no joint states on none");
+}
+
 TEST_F(CheckBag, ARobotThatTheBagIsNotAboutIsRefused) {
   const std::string link = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
   write("other.urdf", "<robot name='other'><link name='a'>" + link + "</link><link name='b'>" + link +
                           "</link><joint name='ab' type='continuous'><parent link='a'/><child link='b'/><origin "
                           "xyz='1 0 0'/></joint></robot>");
-  expectRefused("check-bag arm.bag --urdf other.urdf --out no", "neither tf nor joint_states is about the robot");
+  expectRefused("check-bag arm.bag --urdf other.urdf --out no",
+                "contains no tf, and joint_states is not about the robot, its joints are elbow");
+  {
+    rosbag::Bag bag(path("prefixed.bag").string(), rosbag::bagmode::Write);
+    bag.write("/tf", ros::Time(kBegin), message({stampedTransform("tb1/base", "tb1/hand", kBegin, 0.0)}));
+  }
+  expectRefused(check("prefixed.bag", "no"), "; tf has tb1/hand: is tf_prefix tb1?");
   write("single.urdf", "<robot name='single'><link name='a'>" + link + "</link></robot>");
   expectRefused("check-bag arm.bag --urdf single.urdf --out no", "the robot has no other links");
   write("map.yaml", "fixed_frame: map\n");

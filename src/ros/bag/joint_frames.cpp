@@ -24,6 +24,18 @@ std::vector<std::string> JointFrames::movableFrames() const {
   return frames;
 }
 
+template <class Joints>
+bool JointFrames::isMoved(const urdf::Joint& joint, const Joints& by) const {
+  return hasPosition(joint) && (by.count(joint.name) > 0 || by.count(robot_->leader(joint).name) > 0);
+}
+
+std::vector<std::string> JointFrames::movedFrames(const std::set<std::string>& joints) const {
+  std::vector<std::string> frames;
+  for (int link = 1; link < static_cast<int>(robot_->links().size()); ++link)
+    if (isMoved(robot_->jointAbove(link), joints)) frames.push_back(frames_(link));
+  return frames;
+}
+
 bool JointFrames::knows(const std::string& joint) const {
   return robot_->urdf().joints_.count(joint) > 0;
 }
@@ -40,9 +52,7 @@ tf2_msgs::TFMessage JointFrames::moved(const sensor_msgs::JointState& joints, co
   for (std::size_t i = 0; i < std::min(joints.name.size(), joints.position.size()); ++i) {
     if (std::isfinite(joints.position[i]) && knows(joints.name[i])) positions[joints.name[i]] = joints.position[i];
   }
-  return transforms(positions, stamp, [&](int, const urdf::Joint& joint) {
-    return hasPosition(joint) && (positions.count(joint.name) > 0 || positions.count(robot_->leader(joint).name) > 0);
-  });
+  return transforms(positions, stamp, [&](int, const urdf::Joint& joint) { return isMoved(joint, positions); });
 }
 
 tf2_msgs::TFMessage JointFrames::transforms(

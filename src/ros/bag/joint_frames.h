@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
@@ -24,6 +26,9 @@ class JointFrames {
   std::vector<std::string> movableFrames() const;
   bool knows(const std::string& joint) const;
 
+  /// Frames of the links that moved() gives for a message with positions of these joints.
+  std::vector<std::string> movedFrames(const std::set<std::string>& joints) const;
+
   /// Transforms of the links on fixed joints whose frames are wanted.
   tf2_msgs::TFMessage fixed(const ros::Time& stamp, const std::function<bool(const std::string&)>& is_wanted) const;
 
@@ -35,6 +40,9 @@ class JointFrames {
   /// Of the links, but the root, whose joint above is wanted, with the joints at these positions.
   tf2_msgs::TFMessage transforms(const JointPositions& positions, const ros::Time& stamp,
                                  const std::function<bool(int link, const urdf::Joint& joint)>& is_wanted) const;
+
+  template <class Joints>
+  bool isMoved(const urdf::Joint& joint, const Joints& by) const;
 
   std::shared_ptr<const RobotModel> robot_;
   RobotFrames frames_;

@@ -11,6 +11,7 @@
 #include "common/number_text.h"
 #include "robot/joint_kind.h"
 #include "ros/bag/read_bag.h"
+#include "ros/tf/prefix_hint.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -82,15 +83,13 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   }
   const auto isNamed = [&](const std::string& link) { return tf_frames_.count(link) > 0; };
   // A bag of /joint_states and /tf_static has the links on fixed joints in tf.
-  const std::vector<std::string> telling = joint_state_topics_.empty() ? links : joints_.movableFrames();
-  if (std::any_of(telling.begin(), telling.end(), isNamed) || (telling.empty() && !tf_topics_.empty())) {
-    joint_state_topics_.clear();
-  } else if (links.empty()) {
+  const std::vector<std::string> movable = joints_.movableFrames();
+  const std::vector<std::string>& telling = joint_state_topics_.empty() ? links : movable;
+  const bool has_tf = std::any_of(telling.begin(), telling.end(), isNamed) || (telling.empty() && !tf_topics_.empty());
+  if (!has_tf && links.empty()) {
     throw std::runtime_error(file_ + ": holds no tf, and the robot has no other links whose joints could move");
-  } else {
-    requireJointStates("the links are " + firstOf(links, kNamed) +
-                       (tf_topics_.empty() ? ", there is no tf" : ", the tf's frames " + firstOf(tf_frames_, kNamed)));
   }
+  takeJointStates(described, movable, has_tf);
   fixed_links_ = joints_.fixed(begin_, [&](const std::string& link) { return !isNamed(link); }).transforms.size();
   const bool is_link = std::find(links.begin(), links.end(), described.fixed_frame) != links.end();
   if (wanted.count(described.fixed_frame) > 0 && !is_link) {
@@ -99,45 +98,80 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   }
 }
 
-void RecordedMotion::requireJointStates(const std::string& why) {
+void RecordedMotion::takeJointStates(const DescribedScene& described, const std::vector<std::string>& movable,
+                                     bool has_tf) {
+  const auto isInTf = [&](const std::string& frame) { return tf_frames_.count(frame) > 0; };
+  std::vector<std::string> lacking;
+  std::remove_copy_if(movable.begin(), movable.end(), std::back_inserter(lacking), isInTf);
+  const bool is_asked = !options_.joint_states.empty();
+  const bool has_any = !joint_state_topics_.empty();
+  const std::string problem = is_asked || !has_tf || !lacking.empty() ? findJointStates() : "the tf is complete";
+  if (!problem.empty()) joint_state_topics_.clear();
+  if (!problem.empty() && is_asked) throw std::runtime_error(file_ + ": " + problem);
+  if (!problem.empty() && !has_tf) {
+    const std::string hint = prefixHint(joints_.frames(), {tf_frames_.begin(), tf_frames_.end()});
+    throw std::runtime_error(file_ + ": " +
+                             (tf_topics_.empty() ? "contains no tf" : "its tf names no link of the robot") + ", and " +
+                             problem + ": the links are " + firstOf(joints_.frames(), kNamed) +
+                             (tf_topics_.empty() ? "" : ", the tf's frames " + firstOf(tf_frames_, kNamed)) +
+                             (hint.empty() ? "" : "; " + hint));
+  }
+  if (!is_asked) {
+    std::set<std::string> filled;
+    for (const std::string& frame : lacking)
+      if (joint_frames_.count(frame) > 0) filled.insert(frame);
+    joint_frames_ = std::move(filled);
+  }
+  for (const auto& [name, joint] : described.robot->urdf().joints_) {
+    const std::string frame = described.frames()(joint->child_link_name);
+    if (isInTf(frame) && joint_frames_.count(frame) == 0) unnamed_.erase(name);
+  }
+  if (!problem.empty() && has_any && !lacking.empty())
+    lacking_ = "tf does not have the links " + firstOf(lacking, kNamed) + ", and " + problem;
+  is_by_joints_ = !joint_frames_.empty() && (!has_tf || joint_frames_.size() == movable.size());
+}
+
+std::string RecordedMotion::findJointStates() {
   std::vector<std::string>& topics = joint_state_topics_;
+  const bool is_asked = !options_.joint_states.empty();
+  const std::string wanted = is_asked ? options_.joint_states : "joint_states";
   const auto chosen = std::find_if(topics.begin(), topics.end(), [&](const std::string& topic) {
-    return options_.joint_states.empty() ? withoutLeadingSlash(topic) == "joint_states"
-                                         : withoutLeadingSlash(topic) == withoutLeadingSlash(options_.joint_states);
+    return withoutLeadingSlash(topic) == withoutLeadingSlash(wanted);
   });
   if (chosen != topics.end()) {
     topics = {std::string(*chosen)};
-  } else if (!options_.joint_states.empty()) {
-    throw std::runtime_error(file_ + ": contains no joint states on " + options_.joint_states);
-  } else if (topics.empty()) {
-    throw std::runtime_error(file_ + ": its tf names no link of the robot, and it contains no joint states: " + why);
+  } else if (is_asked || topics.empty()) {
+    return "it contains no joint states" + (is_asked ? " on " + wanted : "");
   } else if (topics.size() > 1) {
-    throw std::runtime_error(file_ + ": holds joint states on " + firstOf(topics, kNamed) + ": choose one of them");
+    return "it holds joint states on " + firstOf(topics, kNamed) + ": choose one of them";
   }
-  std::set<std::string> names;
+  std::set<std::string> names, left = unnamed_;
   rosbag::View view(bag_, rosbag::TopicQuery(topics), ros::TIME_MIN, end_);
-  for (const rosbag::MessageInstance& message : view) {
-    const sensor_msgs::JointState::ConstPtr joints = message.instantiate<sensor_msgs::JointState>();
+  for (auto message = view.begin(); message != view.end() && !left.empty(); ++message) {
+    const sensor_msgs::JointState::ConstPtr joints = message->instantiate<sensor_msgs::JointState>();
     if (!joints) continue;
-    for (const std::string& name : joints->name) {
-      if (joints_.knows(name)) return;
-      names.insert(name);
-    }
+    names.insert(joints->name.begin(), joints->name.end());
+    for (const std::string& name : joints->name) left.erase(name);
   }
-  throw std::runtime_error(file_ + ": neither tf nor " + topics.front() + " is about the robot: " + why +
-                           ", the joint states' joints " + firstOf(names, kNamed));
+  const std::vector<std::string> moved = joints_.movedFrames(names);
+  joint_frames_.insert(moved.begin(), moved.end());
+  return moved.empty() ? topics.front() + " is not about the robot, its joints are " + firstOf(names, kNamed) : "";
 }
 
 std::string RecordedMotion::source() const {
-  if (!joint_state_topics_.empty()) return joint_state_topics_.front();
-  return fixed_links_ == 0 ? "tf" : "tf, and the URDF for " + std::to_string(fixed_links_) + " fixed links";
+  if (is_by_joints_) return joint_state_topics_.front();
+  std::string text = "tf";
+  if (!joint_frames_.empty())
+    text += ", " + joint_state_topics_.front() + " for " + counted(joint_frames_.size(), "link");
+  return fixed_links_ == 0 ? text : text + ", and the URDF for " + std::to_string(fixed_links_) + " fixed links";
 }
 
 std::vector<std::string> RecordedMotion::warnings() const {
-  std::vector<std::string> lines = joint_watch_.lines(source());
-  if (!joint_state_topics_.empty() && !unnamed_.empty()) {
-    lines.push_back(source() + " never gives positions of these joints of the robot: " + firstOf(unnamed_, kNamed));
-  }
+  if (joint_state_topics_.empty()) return lacking_.empty() ? std::vector<std::string>() : std::vector{lacking_};
+  const std::string& topic = joint_state_topics_.front();
+  std::vector<std::string> lines = joint_watch_.lines(topic);
+  if (!unnamed_.empty())
+    lines.push_back(topic + " never gives positions of these joints of the robot: " + firstOf(unnamed_, kNamed));
   return lines;
 }
 
@@ -162,15 +196,22 @@ void RecordedMotion::play(const std::function<void(const RecordedTransforms&)>& 
 void RecordedMotion::playMessage(const rosbag::MessageInstance& message,
                                  const std::function<void(const RecordedTransforms&)>& each) const {
   const ros::Time recorded = std::max(message.getTime(), begin_);
+  const auto keep = [&](tf2_msgs::TFMessage transforms, bool of_joints, bool is_static) {
+    auto& all = transforms.transforms;
+    const auto isOther = [&](const geometry_msgs::TransformStamped& transform) {
+      return joint_frames_.count(withoutLeadingSlash(transform.child_frame_id)) != (of_joints ? 1 : 0);
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
+    if (!all.empty()) each({recorded, transforms, is_static});
+  };
   if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
-    each({recorded, *tf, isStatic(message.getTopic())});
+    keep(*tf, false, isStatic(message.getTopic()));
   } else if (const auto joints = message.instantiate<sensor_msgs::JointState>()) {
     joint_watch_.add(*joints);
     const std::size_t given = std::min(joints->name.size(), joints->position.size());
     for (std::size_t i = 0; i < given; ++i) unnamed_.erase(joints->name[i]);
     const ros::Time& stamp = joints->header.stamp;
-    const tf2_msgs::TFMessage moved = joints_.moved(*joints, stamp.isZero() ? message.getTime() : stamp);
-    if (!moved.transforms.empty()) each({recorded, moved, false});
+    keep(joints_.moved(*joints, stamp.isZero() ? message.getTime() : stamp), true, false);
   }
 }
 

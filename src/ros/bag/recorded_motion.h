@@ -28,9 +28,9 @@ struct RecordedTransforms {
   bool is_static = false;
 };
 
-/// The motion of a robot that a bag recorded: from tf or, if tf contains none of the links that joints move, from joint
-/// states, which are converted to transforms as by robot_state_publisher. Links on fixed joints that are not in tf have
-/// the poses of the URDF.
+/// The motion of a robot that a bag recorded: from tf and, for links that joints move and tf does not contain, from
+/// joint states, which are converted to transforms as by robot_state_publisher. If a topic of joint states is chosen,
+/// it takes precedence over tf. Links on fixed joints that are not in tf have the poses of the URDF.
 class RecordedMotion {
  public:
   /// Finds the frames in the bag; reads it until all frames that are needed are found.
@@ -41,7 +41,7 @@ class RecordedMotion {
   ros::Time begin() const { return begin_; }
   ros::Time end() const { return end_; }
 
-  /// "tf", "tf, and the URDF for 3 fixed links", "/joint_states"
+  /// "tf", "tf, /joint_states for 2 links, and the URDF for 3 fixed links", "/joint_states"
   std::string source() const;
 
   /// Passes all transforms to `each` in the order of their recording, but first the static ones that were recorded
@@ -50,13 +50,14 @@ class RecordedMotion {
   void play(const std::function<void(const RecordedTransforms&)>& each) const;
 
   /// Problems of the joint states that were played: positions that are not finite, which were ignored, and joints of
-  /// the robot that no message names.
+  /// the robot that neither a message nor tf names; or why none were played, though tf lacks links.
   std::vector<std::string> warnings() const;
 
  private:
   void findTopics();
   void findFrames(const DescribedScene& described);
-  void requireJointStates(const std::string& why);
+  void takeJointStates(const DescribedScene& described, const std::vector<std::string>& movable, bool has_tf);
+  std::string findJointStates();  // sets the topic and joint_frames_, or returns why there is none
   void playMessage(const rosbag::MessageInstance& message,
                    const std::function<void(const RecordedTransforms&)>& each) const;
 
@@ -70,6 +71,9 @@ class RecordedMotion {
   std::vector<std::string> tf_topics_;           // /tf and /tf_static, if present
   std::vector<std::string> joint_state_topics_;  // all of the type; later the one that is used, or none
   std::set<std::string> tf_frames_;              // child frames in tf, as far as the bag was read
+  std::set<std::string> joint_frames_;           // frames of links that follow the joint states
+  bool is_by_joints_ = false;                    // all links that joints move follow them, as far as these are named
+  std::string lacking_;                          // links that tf lacks, and why joint states do not give them
   std::size_t fixed_links_ = 0;                  // number of links with the pose of the URDF
 };
 

@@ -247,7 +247,7 @@ void addCheckBagCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("check-bag", "What the collision monitor finds in a recorded bag");
   command->footer(
       "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
-      "where tf names none of the links that joints move, by joint_states and the URDF. Writes to DIR: checked.bag "
+      "links that joints move and tf does not name, by joint_states and the URDF. Writes to DIR: checked.bag "
       "(the transforms, and contacts, state, wrenches, markers, plan and world as the monitor publishes them; "
       "roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
@@ -269,8 +269,10 @@ void addCheckBagCommand(CLI::App& app) {
                       "Error bound of verdicts decided by triangles [m], from 1e-5 to 1e-2");
   command->add_option("--start", arguments->motion.start, "Start time relative to the bag's beginning [s]; default 0");
   command->add_option("--duration", arguments->motion.duration, "How much of it to check [s]; default all");
-  command->add_option("--joint-states", arguments->motion.joint_states,
-                      "Topic of joint states; default joint_states, else the only one");
+  command->add_option(
+      "--joint-states", arguments->motion.joint_states,
+      "Topic of joint states, which are used rather than tf; default, for links that tf lacks: joint_states, "
+      "else the only one");
   arguments->threads.addTo(*command);
   command->callback([arguments] { checkThenRun(*arguments); });
 }
