@@ -38,19 +38,20 @@ class BagLaunch(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             bag, config, record = (os.path.join(folder, name) for name in ('arm.bag', 'arm.yaml', 'contacts.bag'))
             write_bag(bag)
-            with open(SOURCE + '/config/demo/world.yaml') as world, open(config, 'w') as out:
+            with open(SOURCE + '/config/demo/world.yaml') as world, open(config, 'w', encoding='utf-8') as out:
                 out.write(world.read() + 'field: {cell_size: 0.006}\nshell: {spacing: 0.003}\n'
-                          'cache_directory: %s/cache\n' % folder)
-            use_own_master(ROS_HOME=folder)
+                          'cache_directory: %s/cache\nallowed_pairs: [[hand, Tür]]\n' % folder)
+            use_own_master(ROS_HOME=folder, LC_ALL='C', PYTHONUTF8='1')
             for start in ('first', 'second'):
                 ended = subprocess.run(
                     ['roslaunch', 'sdf_ccd', 'bag.launch', 'bag:=' + bag, 'urdf:=' + SOURCE + '/config/demo/arm.urdf',
                      'config:=' + config, 'rviz:=false', 'player_required:=true', 'record:=' + record],
-                    timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                    timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding='utf-8')
                 log = ended.stdout
                 with rosbag.Bag(record) as contacts:
                     verdicts = [message.verdict for _, message, _ in
                                 contacts.read_messages('/collision_monitor/contacts')]
+                self.assertIn('no body is named Tür', log)
                 self.assertIn(ContactArray.CONTACT, verdicts, start + '\n' + log)
                 self.assertIn(ContactArray.CLEAR, verdicts, start + '\n' + log)
                 os.remove(record)

@@ -1,5 +1,6 @@
 // The node: loads the nodelet, so that both run the same code.
 
+#include <clocale>
 #include <csignal>
 
 #include <nodelet/loader.h>
@@ -19,6 +20,7 @@ void requestShutdown(int) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setlocale(LC_CTYPE, "C.UTF-8");  // log4cxx writes names that are not ASCII as ?? in the C locale
   // roscpp's handler would close the connections before the nodelet can publish its last state.
   ros::init(argc, argv, "collision_monitor", ros::init_options::NoSigintHandler);
   std::signal(SIGINT, requestShutdown);
