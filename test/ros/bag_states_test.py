@@ -56,6 +56,7 @@ class BagStatesTest(unittest.TestCase):
         static = '/tf_static', TFMessage([TransformStamped(child_frame_id='tool')])
         self.assertIn('lacks the fixed links tool', self.says([self.transform('arm')], WITH_TOOL))
         self.assertNotIn('fixed', self.says([self.transform('arm'), static], WITH_TOOL))
+        self.assertNotIn('fixed', self.says([self.transform('tb1/arm')], WITH_TOOL), 'tf is about another robot')
         mine = ('/joint_states', JointState(name=['elbow']))
         self.assertNotIn('fixed', self.says([mine], WITH_TOOL), 'robot_state_publisher publishes them')
 
