@@ -77,14 +77,16 @@ std::string misplacedShape(const XMLElement& link) {
 
 std::vector<std::string> misplacedElements(const XMLElement& robot) {
   std::vector<std::string> lines;
-  const auto add = [&](const XMLElement& element, const std::string& parent) {
+  const auto add = [&](const XMLElement& element, const std::string& parent, const std::string& whose) {
     if (lines.size() >= kMost) return;
-    if (std::string why = whyIgnored(element, parent); !why.empty()) lines.push_back(std::move(why));
+    if (const std::string why = whyIgnored(element, parent); !why.empty()) lines.push_back(whose + why);
   };
   for (auto element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
-    add(*element, "robot");
-    if (element->Name() != std::string("joint")) continue;
-    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement()) add(*part, "joint");
+    add(*element, "robot", "");
+    const char* name = element->Attribute("name");
+    if (element->Name() != std::string("joint") || !name) continue;
+    const std::string whose = "joint " + shownText(name) + ": ";
+    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement()) add(*part, "joint", whose);
   }
   return lines;
 }

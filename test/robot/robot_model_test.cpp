@@ -376,9 +376,9 @@ TEST(RobotModel, ElementsThatTheParserPassesOverAreNamed) {
                        "<transmission><joint name='j'><limit/></joint></transmission><gazebo><Link/></gazebo>")
                   .empty());
   EXPECT_EQ(warnings("<Origin xyz='1 0 0'/>", ""),
-            std::vector<std::string>{"line 2 of the URDF: <Origin> is ignored: it must be <origin>"});
+            std::vector<std::string>{"joint j: line 2 of the URDF: <Origin> is ignored: it must be <origin>"});
   EXPECT_EQ(warnings("<origin xyz='1 0 0'/><origin xyz='2 0 0'/>", ""),
-            std::vector<std::string>{"line 2 of the URDF: <origin> is ignored: its <joint> has one already"});
+            std::vector<std::string>{"joint j: line 2 of the URDF: <origin> is ignored: its <joint> has one already"});
   EXPECT_EQ(warnings("", "<Link name='c'/><axis/>"),
             (std::vector<std::string>{"line 3 of the URDF: <Link> is ignored: it must be <link>",
                                       "line 3 of the URDF: <axis> in <robot> is ignored: it belongs in <joint>"}));
