@@ -62,23 +62,6 @@ void shareWarnings(Scene& scene) {
     if (bodies.size() > 1) scene.warnings.push_back(warning + " (" + std::to_string(bodies.size()) + " bodies)");
 }
 
-void warnOfNoPairs(Scene& scene) {
-  if (!scene.pairs.empty()) return;
-  std::map<std::string, std::size_t> count;  // of pairs by reason
-  for (const LeftOut& left_out : scene.left_out)
-    if (left_out.body_a >= 0) ++count[left_out.reason];
-  const std::size_t bodies = scene.bodies.size();
-  std::string why = bodies == 0   ? "there is no body"
-                    : bodies == 1 ? "there is only the body " + scene.bodies[0].name
-                                  : "all bodies are the world's";
-  if (!count.empty()) {
-    const auto most =
-        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    why = "all pairs are left out, " + std::to_string(most->second) + " of them because of: " + most->first;
-  }
-  scene.warnings.push_back("nothing is checked: " + why);
-}
-
 void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
   if (body_a.is_world && body_b.is_world) return;
@@ -126,7 +109,6 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
-  warnOfNoPairs(scene);
   setTotals(scene);
   scene.build_seconds = secondsSince(start);
   return scene;
@@ -161,7 +143,6 @@ void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
   }
   if (kept.size() == scene.pairs.size()) return;
   scene.pairs = std::move(kept);
-  warnOfNoPairs(scene);
   setTotals(scene);
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "no_pairs.h"
 #include "pair_bound.h"
 #include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -118,6 +119,7 @@ std::string planTable(const Scene& scene) {
     text += "\n";
   }
   for (const std::string& warning : scene.warnings) warnings += "  " + warning + "\n";
+  if (const std::string none = whyNoPairs(scene); !none.empty()) warnings += "  " + none + "\n";
   if (!warnings.empty()) text += "notes:\n" + warnings;
   const std::size_t of_objects = pairsOfObjects(scene.bodies);
   if (!scene.left_out.empty() || of_objects > 0) text += "left out:\n" + leftOutLines(scene.left_out);

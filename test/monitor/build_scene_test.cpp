@@ -49,23 +49,6 @@ TEST(BuildScene, EqualMeshesAreBuiltOnce) {
   EXPECT_GT(scene->reports[0].field_bytes, 0u);
 }
 
-TEST(BuildScene, NoPairsAreToldWithTheReason) {
-  const auto warnings = [](const SceneDescription& description) { return build(description)->warnings; };
-  using Warnings = std::vector<std::string>;
-  const BodyDescription a = body("a", Primitive(Sphere{0.1})), b = body("b", Primitive(Sphere{0.1}));
-  const BodyDescription box = body("box", Primitive(Sphere{0.1}), true),
-                        lid = body("lid", Primitive(Sphere{0.1}), true);
-  EXPECT_EQ(warnings({{a, b}, {}}), Warnings{});
-  EXPECT_EQ(warnings({{}, {}}), Warnings{"nothing is checked: there is no body"});
-  EXPECT_EQ(warnings({{a}, {}}), Warnings{"nothing is checked: there is only the body a"});
-  EXPECT_EQ(warnings({{box, lid}, {}}), Warnings{"nothing is checked: all bodies are the world's"});
-  EXPECT_EQ(warnings({{a, b, box}, {{"a", "b", "SRDF: Never"}, {"a", "box", "far"}, {"b", "box", "far"}}}),
-            Warnings{"nothing is checked: all pairs are left out, 2 of them because of: far"});
-  Scene scene = *build({a, b});
-  leaveOut({"they overlap"}, scene);
-  EXPECT_EQ(scene.warnings, Warnings{"nothing is checked: all pairs are left out, 1 of them because of: they overlap"});
-}
-
 TEST(BuildScene, EqualVoxelsAndMeshesAreNotTakenForEachOther) {
   BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})), true);
   map.geometry[0].watertight_voxels = true;

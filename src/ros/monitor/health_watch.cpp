@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include "common/number_text.h"
+#include "monitor/no_pairs.h"
 #include "monitor/over_budget.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/prefix_hint.h"
@@ -38,6 +39,7 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) warn(report.name + ": " + warning);
   for (const std::string& warning : scene.warnings) warn(warning);
+  if (const std::string none = whyNoPairs(scene); !none.empty()) ROS_WARN("%s", none.c_str());  // may change
   const std::string over = overBudget(scene);
   if (!over.empty()) warn(over);
   health_.wanted_rate = parameters.rate;
