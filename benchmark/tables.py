@@ -11,6 +11,7 @@ import re
 import sys
 
 import anytime_tables
+import contact_tables
 import dynamics_tables
 import map_tables
 import meshes_tables
@@ -181,7 +182,7 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
           **{name: lambda results, make=make: table(*make(results)) for name, make in
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
               **map_tables.TABLES, **meshes_tables.TABLES, **monitor_tables.TABLES,
-              **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES,
+              **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES, **contact_tables.TABLES,
               **tunnelling_tables.TABLES, **world_tables.TABLES}.items()}}
 
 

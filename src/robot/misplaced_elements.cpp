@@ -55,13 +55,21 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
   return line + "is ignored: its <" + parent + "> has one already";
 }
 
+/// Whether an element with this name holds a shape, or is one.
+bool isOfShape(const std::string& name_in_lower_case) {
+  static const std::set<std::string> names = {"collision", "geometry", "box", "sphere", "cylinder", "mesh"};
+  return names.count(name_in_lower_case) > 0;
+}
+
 /// @param is_read  whether all of the parent's elements matter; otherwise only collision shapes.
 std::string firstIgnored(const XMLElement& parent, bool is_read) {
   for (auto element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
     const std::string name = element->Name(), lower = inLowerCase(name);
     const bool is_visuals = lower == "geometry" && inLowerCase(parent.Name()) == "visual";
     if (is_visuals) continue;
-    if (is_read || lower == "collision" || lower == "geometry") {
+    // What else a link should not have, such as an origin of its own, moves no shape for any reader.
+    const bool matters = is_read && (isOfShape(lower) || parent.Name() != std::string("link"));
+    if (matters || lower == "collision" || lower == "geometry") {
       if (std::string why = whyIgnored(*element, parent.Name()); !why.empty()) return why;
     }
     if (std::string why = firstIgnored(*element, name == "collision" || name == "geometry"); !why.empty()) return why;
@@ -83,10 +91,11 @@ std::vector<std::string> misplacedElements(const XMLElement& robot) {
   };
   for (auto element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
     add(*element, "robot", "");
+    const std::string kind = element->Name();
     const char* name = element->Attribute("name");
-    if (element->Name() != std::string("joint") || !name) continue;
-    const std::string whose = "joint " + shownText(name) + ": ";
-    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement()) add(*part, "joint", whose);
+    if ((kind != "joint" && kind != "link") || !name) continue;
+    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement())
+      if (!isOfShape(inLowerCase(part->Name()))) add(*part, kind, kind + " " + shownText(name) + ": ");
   }
   return lines;
 }

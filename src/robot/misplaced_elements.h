@@ -11,7 +11,8 @@ namespace sdf_ccd {
 /// whose name has the wrong case, at a wrong place, or the second where there can be one. Empty if there is none.
 std::string misplacedShape(const tinyxml2::XMLElement& link);
 
-/// The same for elements of the robot itself and of its joints; a line each, for the first ten.
+/// The same for elements of the robot itself, of its joints, and others of its links than shapes; a line each, for the
+/// first ten.
 std::vector<std::string> misplacedElements(const tinyxml2::XMLElement& robot);
 
 }  // namespace sdf_ccd
