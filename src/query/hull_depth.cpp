@@ -86,7 +86,7 @@ class HullSearch {
     HullValues behind;
     for (int k = 0; k < 6; ++k) behind[k] = std::max(h - n.dot(corners_[k] - center_), size_ - radius);
     if (size_ + *std::max_element(behind.begin(), behind.end()) > radius) return;
-    if (!part_.solid->inside(center_ + radius * n)) take(behind);
+    if (!isInside(part_, center_ + radius * n)) take(behind);
   }
 
   void takeMeans() {

@@ -2,6 +2,11 @@
 
 namespace sdf_ccd {
 
+bool isInside(const SolidPart& part, const Vector3d& p_G) {
+  const DistanceBounds bounds = part.field->bounds(p_G);
+  return bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
+}
+
 PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
   if (!part.solid) {
     const FieldValue value = part.field->interpolate(p_G);
@@ -9,8 +14,7 @@ PartDepth depthIn(const SolidPart& part, const Vector3d& p_G) {
   }
   const TriangleTree& tree = part.solid->tree();
   const TriangleTree::ClosestPoint nearest = tree.closestPoint(p_G);
-  const DistanceBounds bounds = part.field->bounds(p_G);
-  const bool inside = bounds.high < 0.0 || (bounds.low <= 0.0 && part.solid->inside(p_G));
+  const bool inside = isInside(part, p_G);
   Vector3d out = (inside ? 1.0 : -1.0) * (nearest.point - p_G);
   // On the surface (up to rounding) the outward direction is the triangle's own normal.
   if (!(nearest.distance > 1e-9 * (1.0 + p_G.norm()))) out = areaNormal(tree.triangle(nearest.triangle).corners());

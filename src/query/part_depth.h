@@ -22,6 +22,9 @@ struct PartDepth {
   Vector3d out = Vector3d::Zero();  ///< outward normal: unit, or zero where there is none
 };
 
+/// Whether a point is in an element that has a solid; in the element's frame.
+bool isInside(const SolidPart& part, const Vector3d& p_G);
+
 /// In the element's frame.
 PartDepth depthIn(const SolidPart& part, const Vector3d& p_G);
 
