@@ -27,7 +27,7 @@ FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, 
 
 /// The grid. @throws std::invalid_argument if there is none, or `moved` is not a distance.
 template <typename Grid>
-const std::shared_ptr<const Grid>& valid(const std::shared_ptr<const Grid>& grid, double moved) {
+std::shared_ptr<const Grid> valid(std::shared_ptr<const Grid> grid, double moved) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
   if (moved >= 0.0 && std::isfinite(moved)) return grid;
   throw std::invalid_argument("distance field: the surface cannot have moved by " + numberText(moved) + " m");
@@ -51,15 +51,15 @@ DistanceField::DistanceField(const Primitive& primitive)
 
 DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
                              double moved)
-    : representation_(valid(grid, moved)),
-      surface_box_(grid->shape().surface_box),
+    : representation_(valid(std::move(grid), moved)),
+      surface_box_(this->grid()->shape().surface_box),
       openings_(std::move(openings)),
       moved_(moved) {}
 
 DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings,
                              double moved)
-    : representation_(valid(grid, moved)),
-      surface_box_(grid->shape().surface_box),
+    : representation_(valid(std::move(grid), moved)),
+      surface_box_(adaptive()->shape().surface_box),
       openings_(std::move(openings)),
       moved_(moved) {}
 

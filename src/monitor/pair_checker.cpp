@@ -126,6 +126,7 @@ void PairChecker::take(const PairChecker& other) {
   clearance_ = other.clearance_;
   outside_ = other.outside_;
   X_FP_last_ = other.X_FP_last_;
+  X_FP_untold_ = other.X_FP_untold_;
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
@@ -315,7 +316,8 @@ void PairChecker::setSurfaceError(double open_within, const ErrorBound& error, P
   const bool is_open = result.verdict == Verdict::kUncertain;
   if (!surfaces_ || (is_open && open_within == kInfinity)) return;
   result.error = error;
-  if (is_open) result.error.gap += open_within;
+  // That is of the triangles; the true surfaces may be farther apart, or overlap more, by their deviation once again.
+  if (is_open) result.error.gap += open_within + surfaces_->deviation();
 }
 
 /// Whether the triangles prove that the bodies stay apart. @param answer  set if not.
@@ -329,8 +331,13 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
     if (answer.state != SeparationState::kApart) return false;
     clearance = std::max(clearance, answer.clearance);
     if (!outside_) {
+      // That takes many rays in a mesh whose inside is doubtful, and hardly depends on small displacements.
+      constexpr double kSmall = 0.1;
+      if (X_FP_untold_ && motion.jumpFrom(*X_FP_untold_) < kSmall * surfaces_->size()) return false;
       const SurfacePair::Containment found = surfaces_->containment(motion.end());
       outside_ = found.excluded;
+      X_FP_untold_.reset();
+      if (!outside_ && !found.p_F) X_FP_untold_ = motion.end();
       if (found.p_F) answer.crossing = surfaces_->contactInside(*found.p_F);
       if (!outside_) return false;
     }

@@ -43,6 +43,7 @@ class PairChecker {
   /// Discards the clearance and all other data of earlier cycles.
   void forget() {
     forgetClearance();
+    X_FP_untold_.reset();
     if (surfaces_) surfaces_->forget();
   }
 
@@ -105,6 +106,7 @@ class PairChecker {
   bool outside_ = false;         // neither body had a component wholly inside the other at the last cycle's end
   ErrorBound bound_;             // of field and gap
   double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
+  std::optional<Isometry3d> X_FP_untold_;  // where it was last not known whether one body is inside the other
   Isometry3d X_FP_last_;  // of surfaces_ or the first role, at the last cycle's end; valid if the clearance is known
   double travel_ = 0.0;   // upper bound of the relative displacement of the bodies' points in this cycle [m]
   double motion_error_ = 0.0;     // of the given motion, and of computing with its poses [m]

@@ -38,16 +38,17 @@ std::string inLowerCase(std::string name) {
 /// Why urdfdom ignores an element of one of these names; empty if it does not.
 std::string whyIgnored(const XMLElement& element, const std::string& parent) {
   const std::string written = element.Name(), name = inLowerCase(written);
+  const std::string line =
+      "line " + std::to_string(element.GetLineNum()) + " of the URDF: <" + shownText(written) + "> ";
+  const bool is_shape = parent == "geometry";  // whatever its name
+  if (is_shape && element.PreviousSiblingElement()) return line + "is ignored: its <geometry> has a shape already";
   const auto known = kParents.find(name);
   if (known == kParents.end()) return {};
-  const std::string line = "line " + std::to_string(element.GetLineNum()) + " of the URDF: <" + written + "> ";
   if (known->second.count(inLowerCase(parent)) == 0) {
     std::string places;
     for (const std::string& place : known->second) places += (places.empty() ? "<" : " or <") + place + ">";
     return line + "in <" + shownText(parent) + "> is ignored: it belongs in " + places;
   }
-  const bool is_shape = parent == "geometry";
-  if (is_shape && element.PreviousSiblingElement()) return line + "is ignored: its <geometry> has a shape already";
   if (is_shape) return {};  // the parser reports it, if it cannot be read
   if (written != name) return line + "is ignored: it must be <" + name + ">";
   const bool can_be_many = name == "link" || name == "joint" || name == "collision";
@@ -61,18 +62,26 @@ bool isOfShape(const std::string& name_in_lower_case) {
   return names.count(name_in_lower_case) > 0;
 }
 
-/// @param is_read  whether all of the parent's elements matter; otherwise only collision shapes.
+/// Elements of a link in which others than collision shapes have their names.
+bool isExtension(const std::string& name) {
+  static const std::set<std::string> names = {"collision_checking", "contact", "gazebo",
+                                              "material",           "sensor",  "self_collision_checking"};
+  return names.count(name) > 0;
+}
+
+/// @param is_read  whether all of the parent's elements matter; otherwise only whole collision elements.
 std::string firstIgnored(const XMLElement& parent, bool is_read) {
   for (auto element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
     const std::string name = element->Name(), lower = inLowerCase(name);
     const bool is_visuals = lower == "geometry" && inLowerCase(parent.Name()) == "visual";
-    if (is_visuals) continue;
+    if (is_visuals || isExtension(lower)) continue;
     // What else a link should not have, such as an origin of its own, moves no shape for any reader.
     const bool matters = is_read && (isOfShape(lower) || parent.Name() != std::string("link"));
-    if (matters || lower == "collision" || lower == "geometry") {
+    if (matters || (lower == "collision" && element->FirstChildElement("geometry"))) {
       if (std::string why = whyIgnored(*element, parent.Name()); !why.empty()) return why;
     }
-    if (std::string why = firstIgnored(*element, name == "collision" || name == "geometry"); !why.empty()) return why;
+    const bool is_read_below = is_read && (name == "collision" || name == "geometry");
+    if (std::string why = firstIgnored(*element, is_read_below); !why.empty()) return why;
   }
   return {};
 }

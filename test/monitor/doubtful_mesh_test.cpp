@@ -129,6 +129,36 @@ TEST(DoubtfulMesh, WhatIsInACavityOfACrackedHousingIsNoContact) {
   }
 }
 
+/// Deep in a tube that may be filled a bead sees nothing outside; on its way out it is CLEAR at most a tenth of its
+/// size later than if nothing were kept from earlier cycles.
+TEST(DoubtfulMesh, WhatComesOutOfATubeBecomesClear) {
+  const TriangleMesh tube = test::without(boxMesh({0.03, 0.03, 0.2}), [](const Vector3d& p) { return p.z() > 0.19; });
+  const TriangleMesh sheets = merged(boxMesh({0.3, 0.3, 0.3}), flipped(mirroredBox({0.3, 0.3, 0.3})));
+  const auto scene = test::build({test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}})),
+                                  test::body("part", test::meshShape(merged(tube, translated(sheets, {2, 0, 0}))))},
+                                 test::fine(0.02));
+  ASSERT_TRUE(scene->bodies[1].doubtful);
+  Monitor kept(scene, test::soft()), fresh(scene, test::soft());
+  constexpr double kStep = 0.002;
+  int first_kept = -1, first_fresh = -1;
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d start(0, 0, -0.1 + kStep * i), end(0, 0, -0.1 + kStep * (i + 1));
+    const CycleMotion motion =
+        test::cycle(0.01, {{translation(start), translation(end)}, test::still(Isometry3d::Identity())});
+    fresh.reset();
+    const auto look = [&](Monitor& monitor, int& first) {
+      const Verdict verdict = monitor.run(motion, {}).pairs.front().verdict;
+      EXPECT_EQ(verdict, first < 0 && verdict != Verdict::kClear ? Verdict::kUncertain : Verdict::kClear) << i;
+      if (first < 0 && verdict == Verdict::kClear) first = i;
+    };
+    look(kept, first_kept);
+    look(fresh, first_fresh);
+  }
+  EXPECT_GT(first_fresh, 0);
+  EXPECT_GE(first_kept, first_fresh);
+  EXPECT_LE((first_kept - first_fresh) * kStep, 0.1 * 0.035 + kStep);
+}
+
 /// A part that is drawn inside out is one also if some other part is open.
 TEST(DoubtfulMesh, APartInsideOutBesideAnOpenBoxIsNotDoubtful) {
   for (const Vector3d& place : {Vector3d(2, 0, 0), Vector3d(0, 0, 0.6)}) {

@@ -5,6 +5,7 @@
 
 #include "monitor/half_space_case.h"
 #include "monitor/pair_distances.h"
+#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
@@ -111,6 +112,27 @@ TEST(HalfSpaceLimits, BelowIsBelowThroughout) {
     EXPECT_TRUE(isWhole(cylinder.run(still(Isometry3d::Identity(), 3), {rolled(0.2), rolled(0.7), rolled(1.2)},
                                      wants_contacts ? CycleRequest() : verdictOnly())));
   }
+}
+
+/// The triangles of a cylinder deviate from it, to either side.
+TEST(HalfSpaceLimits, UncertainHoldsForWhatTrianglesStandFor) {
+  constexpr double kRadius = 0.1, kHalf = 0.05;
+  Fall fall(Primitive(Cylinder{kRadius, kHalf}), Isometry3d::Identity());
+  Random random(3);
+  int uncertain = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Isometry3d R = test::pose(random, kPi, 0.0);
+    const Vector3d down = R.linear().transpose() * -Vector3d::UnitZ();
+    const double low = kRadius * std::hypot(down.x(), down.y()) + kHalf * std::abs(down.z());
+    const double height = uniform(random, -5e-6, 5e-6);
+    fall.monitor->reset();
+    const PairResult result =
+        fall.run(still(Isometry3d::Identity()), still(translation({0, 0, low + height}) * R), verdictOnly());
+    if (result.verdict != Verdict::kUncertain) continue;
+    ++uncertain;
+    EXPECT_LE(std::abs(height), result.error.total());
+  }
+  EXPECT_GT(uncertain, 300);
 }
 
 /// The frame of the half-space is so far from its surface that rounding displaces it.

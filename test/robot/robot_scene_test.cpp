@@ -161,6 +161,14 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
            visual + "<!-- <Box/> -->" + cube,
        ""},
       {"origin", "<origin xyz='0 0 1'/>" + cube, ""},
+      {"extended",
+       "<self_collision_checking><origin/><geometry><capsule/></geometry></self_collision_checking><sensor><contact>"
+       "<collision>c</collision></contact></sensor><gazebo><collision/></gazebo><extra><geometry><a/><b/></geometry></"
+       "extra>" +
+           cube,
+       ""},
+      {"capsule", "<collision><geometry>" + sphere + "<capsule/></geometry></collision>",
+       "<capsule> is ignored: its <geometry> has a shape already"},
       {"two", "<collision><geometry>" + sphere + "\n<cylinder radius='1' length='1'/></geometry></collision>",
        "line 3 of the URDF: <cylinder> is ignored: its <geometry> has a shape already"},
       {"twice", "<collision><geometry>" + sphere + "</geometry><geometry>" + sphere + "</geometry></collision>",
