@@ -100,7 +100,7 @@ void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const C
 }
 
 void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path) {
-  const auto poseAt = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
+  const auto poseAt = [&](double s) { return motion.X_FP(s); };
   addChords(Span{motion.t_start, motion.t_end, interval}, motion.acceleration, poseAt, options, path);
 }
 

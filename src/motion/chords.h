@@ -41,6 +41,9 @@ struct TwoBodyMotion {
   const ScrewMotion& X_WF;
   const ScrewMotion& X_WP;
   double acceleration;  ///< of P's points in F: RelativeMotionBounds
+
+  /// P relative to F at s, from 0 to 1.
+  Isometry3d X_FP(double s) const { return relativePose(X_WF.pose(s), X_WP.pose(s)); }
 };
 
 /// Appends the chords of one interval to the path, whose last chord must end where the interval begins, and updates its

@@ -59,6 +59,13 @@ struct LowestTriangle {
   double at_least = kInfinity;  // lower bound of all heights [m]
 };
 
+/// Its lowest point, frame F.
+Vector3d pointOf(const LowestTriangle& lowest, const BoxTree& surface, const Upward& up, const HalfSpace& half_space,
+                 const Isometry3d& X_FP) {
+  const RoundedTriangle& t = surface.triangle(lowest.triangle);
+  return X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space.normal;
+}
+
 /// Branch and bound over the boxes.
 class LowestSearch {
  public:
@@ -145,7 +152,7 @@ class PlaneQuery {
         memory_(memory) {}
 
   Separation run() {
-    const Isometry3d X_start = poseAt(0.0), X_end = poseAt(1.0);
+    const Isometry3d X_start = motion_.X_FP(0.0), X_end = motion_.X_FP(1.0);
     const double size = (X_start * surface_.origin()).norm() + (X_end * surface_.origin()).norm() +
                         surface_.origin().norm() + surface_.ball().radius + std::abs(half_space_.offset);
     rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
@@ -168,8 +175,6 @@ class PlaneQuery {
     Low at_start, at_end;
   };
 
-  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
-
   double chordError(double length) const { return motion_.acceleration * length * length / 8.0; }
 
   /// Tests one pose. @param length  of the interval that it ends.
@@ -185,11 +190,10 @@ class PlaneQuery {
   }
 
   void setCrossing(double s, const Isometry3d& X_FP, const Upward& up, const LowestTriangle& lowest) {
-    const RoundedTriangle& t = surface_.triangle(lowest.triangle);
     crossed_ = true;
     found_.state = SeparationState::kCrossing;
     found_.s = s;
-    found_.p_A = X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space_.normal;
+    found_.p_A = pointOf(lowest, surface_, up, half_space_, X_FP);
     found_.normal_A = half_space_.normal;
   }
 
@@ -210,7 +214,7 @@ class PlaneQuery {
       return;
     }
     const double middle = 0.5 * (part.start + part.end);
-    const Low at_middle = lowestAt(middle, poseAt(middle), 0.5 * length);
+    const Low at_middle = lowestAt(middle, motion_.X_FP(middle), 0.5 * length);
     testBetween({middle, part.end, at_middle, part.at_end});  // what touches at its end usually touches later too
     testBetween({part.start, middle, part.at_start, at_middle});
   }
@@ -233,8 +237,7 @@ LowestPoint lowestPoint(const HalfSpace& half_space, const BoxTree& surface, con
   const Upward up(half_space, X_FP);
   const LowestTriangle lowest = LowestSearch(surface, up, kNoTarget, accuracy, memory).run(witness.near_b);
   witness.near_b = lowest.triangle;
-  const RoundedTriangle& t = surface.triangle(lowest.triangle);
-  return {lowest.height, lowest.at_least, X_FP * lowestCorner(t.corners, up.direction) - t.radius * half_space.normal};
+  return {lowest.height, lowest.at_least, pointOf(lowest, surface, up, half_space, X_FP)};
 }
 
 Separation planeSeparation(const HalfSpace& half_space, const BoxTree& surface, const TwoBodyMotion& motion,

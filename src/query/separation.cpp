@@ -45,7 +45,7 @@ class SeparationQuery {
 
   Separation run() {
     memory_.near.clear();
-    const Isometry3d X_start = poseAt(0.0), X_end = poseAt(1.0);
+    const Isometry3d X_start = motion_.X_FP(0.0), X_end = motion_.X_FP(1.0);
     const double size = a_.origin().norm() + a_.ball().radius + (X_start * b_.origin()).norm() +
                         (X_end * b_.origin()).norm() + b_.origin().norm() + b_.ball().radius;
     rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
@@ -61,8 +61,6 @@ class SeparationQuery {
 
  private:
   using Triangles = SeparationMemory::Triangles;
-
-  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
 
   bool isDone() const { return crossed_ || tests_ > limit_; }
 
@@ -188,7 +186,7 @@ class SeparationQuery {
   void halve(const Times& times, const EndPoses& poses, const Test& test) {
     cancel_.check();
     const double middle = times.middle();
-    const Isometry3d X_middle = poseAt(middle);
+    const Isometry3d X_middle = motion_.X_FP(middle);
     // The later half first: surfaces that touch at its end usually touch in the next query too.
     if (!isDone()) test(Times{middle, times.end}, EndPoses{X_middle, poses.X_AB_end});
     if (!isDone()) test(Times{times.start, middle}, EndPoses{poses.X_AB_start, X_middle});

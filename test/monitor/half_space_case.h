@@ -4,6 +4,12 @@
 
 namespace sdf_ccd::test {
 
+inline CycleRequest verdictOnly() {
+  CycleRequest request;
+  request.contacts = request.wrenches = false;
+  return request;
+}
+
 /// A body above a half-space that its description has at X_BG.
 struct Fall {
   Fall(const Shape& shape, const Isometry3d& X_BG, bool ground_first = true) : ground_first(ground_first) {

@@ -12,12 +12,6 @@ namespace {
 
 using namespace test;
 
-CycleRequest verdictOnly() {
-  CycleRequest request;
-  request.contacts = request.wrenches = false;
-  return request;
-}
-
 /// Poses on a carousel, which turns by 3 rad a step. @param heights  of the body's origin.
 std::vector<Isometry3d> carousel(double radius, const std::vector<double>& heights) {
   std::vector<Isometry3d> X_WP;

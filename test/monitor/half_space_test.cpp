@@ -120,8 +120,6 @@ TEST(HalfSpacePair, SeesWhatATurnDips) {
 /// height at which the verdict changes.
 TEST(HalfSpacePair, UncertainIsANarrowBand) {
   Random random(9);
-  CycleRequest verdict_only;
-  verdict_only.contacts = verdict_only.wrenches = false;
   for (const Case& each : kLargeCases) {
     Fall fall(each.shape, Isometry3d::Identity());
     for (int trial = 0; trial < 60; ++trial) {
@@ -131,7 +129,7 @@ TEST(HalfSpacePair, UncertainIsANarrowBand) {
         const Isometry3d X = translation({0, 0, height}) * start;
         fall.monitor->reset();
         const PairResult result =
-            fall.run(still(Isometry3d::Identity()), {X, X * turn}, trial % 2 == 0 ? verdict_only : CycleRequest());
+            fall.run(still(Isometry3d::Identity()), {X, X * turn}, trial % 2 == 0 ? verdictOnly() : CycleRequest());
         if (result.verdict == Verdict::kUncertain) error = std::max(error, result.error.total());
         return result.verdict;
       };

@@ -66,6 +66,26 @@ LeastValue leastOfSamples(const F& sample, Real from, Real to, const LeastOption
   }
 }
 
+/// The smallest value found at evenly spread places of [0, 1], and by a local search from the best of them: an upper
+/// bound of the minimum.
+/// @param f       Real(Real s, Real best); values above `best` need not be exact.
+/// @param finest  step of the local search.
+template <class F>
+Real leastFound(const F& f, int samples, Real finest) {
+  Real best = 1e300L, at = 0;
+  const auto look = [&](Real s) {
+    if (s < 0 || s > 1) return;
+    const Real value = f(s, best);
+    if (value < best) best = value, at = s;
+  };
+  for (int i = 0; i <= samples; ++i) look(Real(i) / samples);
+  for (Real step = 0.5L / samples; step > finest; step /= 2) {
+    look(at - step);
+    look(at + step);
+  }
+  return best;
+}
+
 /// The minimum of a function that changes by at most `rate` per unit.
 /// @param f  Real(Real); it may be less than the function with that rate: `low` still holds.
 template <class F>

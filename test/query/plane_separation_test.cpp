@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/least_value.h"
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
@@ -56,18 +57,7 @@ struct Case {
 
   /// The smallest height found at some times, and by a local search from the best of them: an upper bound.
   Real leastFound(int samples) const {
-    Real best = 1e300L, at = 0;
-    const auto look = [&](Real s) {
-      if (s < 0 || s > 1) return;
-      const Real height = heightAt(s);
-      if (height < best) best = height, at = s;
-    };
-    for (int i = 0; i <= samples; ++i) look(Real(i) / samples);
-    for (Real step = 0.5L / samples; step > 1e-7L; step /= 2) {
-      look(at - step);
-      look(at + step);
-    }
-    return best;
+    return test::leastFound([&](Real s, Real) { return heightAt(s); }, samples, 1e-7L);
   }
 };
 
@@ -202,7 +192,7 @@ TEST(LowestPoint, FlatFacesAreNotOpened) {
       EXPECT_NEAR(least - plane.offset, 1e-4, 1e-12);
       scan = std::min(scan, since(between));
     }
-    EXPECT_LT(search, 0.1 * scan) << side;
+    EXPECT_LT(search, 0.5 * scan) << side << ": 0.07 at most, unless boxes that lie on the plane are opened";
   }
 }
 

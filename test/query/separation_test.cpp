@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/least_value.h"
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
@@ -79,18 +80,7 @@ struct Case {
 
   /// The smallest distance found at some times, and by a local search from the best of them: an upper bound.
   Real leastFound(int samples = 24) const {
-    Real best = 1e300L, at = 0;
-    const auto look = [&](Real s) {
-      if (s < 0 || s > 1) return;
-      const Real distance = distanceAt(s, best);
-      if (distance < best) best = distance, at = s;
-    };
-    for (int i = 0; i <= samples; ++i) look(Real(i) / samples);
-    for (Real step = 0.5L / samples; step > 1e-5L; step /= 2) {
-      look(at - step);
-      look(at + step);
-    }
-    return best;
+    return test::leastFound([&](Real s, Real best) { return distanceAt(s, best); }, samples, 1e-5L);
   }
 };
 
