@@ -25,7 +25,7 @@ constexpr std::size_t kWalks = 64;  // per part: hits tested for passing through
 void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, bool crosses) {
   crosses_ = crosses;
   path_error_ = pair.error.chord + pair.error.root;
-  certain_depth_ = 0.0;
+  certain_ = {};
   motion_ = &motion;
   span_ = pair.span;
   body_a_ = pair.body_a;
@@ -142,7 +142,8 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
-    if (certain && needsErrors(input.field)) certain_depth_ = std::max(certain_depth_, depth.least);
+    if (certain && needsErrors(input.field) && depth.least > certain_.depth)
+      certain_ = {depth.least, shell_is_a, input.shell.points[hit.point]};
     found_.push_back(found);
   }
   joinWhereMany();

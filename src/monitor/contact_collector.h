@@ -31,9 +31,14 @@ class ContactCollector {
   /// Whether the surfaces are known to cross, from begin() or add().
   bool crosses() const { return crosses_; }
 
-  /// Largest depth of a point that is certain in fields without openings, up to the path's error [m]; 0 if there is
-  /// none.
-  double certainDepth() const { return certain_depth_; }
+  /// A shell point that is certainly inside a field without openings, up to the path's error.
+  struct CertainPoint {
+    double depth = 0.0;  ///< lower bound [m]
+    bool is_of_a = false;
+    Vector3d p = Vector3d::Zero();  ///< frame of its own body
+  };
+  /// The deepest one; its depth is 0 if there is none.
+  const CertainPoint& certain() const { return certain_; }
 
   /// Writes intervals, deepest point, points and wrenches to the result.
   void finish(const CycleRequest& request, PairResult& result);
@@ -88,7 +93,7 @@ class ContactCollector {
   bool crosses_ = false;
   double path_error_ = 0.0;   // [m]
   bool is_doubtful_ = false;  // the inside of the role's field body is doubtful
-  double certain_depth_ = 0.0;
+  CertainPoint certain_;
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;
 };

@@ -119,14 +119,16 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
 void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
   if (roles_.empty()) return;
   clearance_ = clearance;
+  inside_.reset();
   X_FP_last_ = relativeMotion().f() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
 }
 
 void PairChecker::take(const PairChecker& other) {
   clearance_ = other.clearance_;
   outside_ = other.outside_;
+  inside_ = other.inside_;
   X_FP_last_ = other.X_FP_last_;
-  X_FP_untold_ = other.X_FP_untold_;
+  untold_ = other.untold_;
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
@@ -140,9 +142,13 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
     setRoles(bodies, span);
   }
   const RelativeMotion& motion = relativeMotion();
-  const bool continues = clearance_ == kUnknown || X_FP_last_.matrix() == motion.start().matrix();
-  if (!continues) outside_ = false;
-  clearance_ -= travel_ + (continues ? 0.0 : motion.jumpFrom(X_FP_last_));
+  const bool continues = X_FP_last_.matrix() == motion.start().matrix();
+  if (!continues) {
+    if (isKnown()) clearance_ -= motion.jumpFrom(X_FP_last_);
+    outside_ = false;
+    inside_.reset();
+  }
+  clearance_ -= travel_;
   X_FP_last_ = motion.end();
 }
 
@@ -205,11 +211,12 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   const std::optional<ContactPoint>& crossing = by_surfaces.crossing;
   if (crossing || roles_.mayComeNearer(near)) {
     forgetClearance();
-    findContacts(motion, request, crossing, result);
+    findContacts(motion, request, by_surfaces, result);
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
       refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
     if (surfaces_) completePeaks(result);
     if (!crossing) doubt(result);
+    if (by_surfaces.state == SeparationState::kApart) keepInside(result);
     return setSurfaceError(by_surfaces.open_within, surface_error, result);
   }
   // With both shells the surfaces' distance is known up to the gap; with one, up to its covering radius.
@@ -326,32 +333,38 @@ bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& resul
   double clearance = surfaces_->ballClearance(motion.end());
   if (surfaces_->ballClearance(motion.start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
     outside_ = true;
+    inside_.reset();
   } else {
     answer = surfaces_->decide(motion_error_, memory_->separation);
-    if (answer.state != SeparationState::kApart) return false;
+    if (answer.state != SeparationState::kApart) {
+      inside_.reset();
+      return false;
+    }
     clearance = std::max(clearance, answer.clearance);
-    if (!outside_) {
+    if (!outside_ && !inside_) {
       // That takes many rays in a mesh whose inside is doubtful, and hardly depends on small displacements.
       constexpr double kSmall = 0.1;
-      if (X_FP_untold_ && motion.jumpFrom(*X_FP_untold_) < kSmall * surfaces_->size()) return false;
-      const SurfacePair::Containment found = surfaces_->containment(motion.end());
+      if (untold_ && motion.jumpFrom(untold_->X_FP) < kSmall * surfaces_->size()) return false;
+      const int attempt = untold_ ? untold_->attempts : 0;
+      const SurfacePair::Containment found = surfaces_->containment(motion.end(), attempt);
       outside_ = found.excluded;
-      X_FP_untold_.reset();
-      if (!outside_ && !found.p_F) X_FP_untold_ = motion.end();
-      if (found.p_F) answer.crossing = surfaces_->contactInside(*found.p_F);
-      if (!outside_) return false;
+      inside_ = found.inside;
+      untold_.reset();
+      if (!outside_ && !inside_) untold_ = {motion.end(), attempt + 1};
     }
+    if (inside_) answer.crossing = surfaces_->contactInside(*inside_);
+    if (!outside_) return false;
   }
   setClear(clearance, result);
   return true;
 }
 
-/// @param known  a known crossing of the surfaces, if any.
+/// @param by_surfaces  what triangles tell, if they decide the pair.
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request,
-                               const std::optional<ContactPoint>& known, PairResult& result) {
-  const std::optional<ContactPoint> crossing = known   ? known
-                                               : open_ ? crossingAtARecordedTime(scene_, motion, result, motion_error_)
-                                                       : std::nullopt;
+                               const SurfacePair::Answer& by_surfaces, PairResult& result) {
+  std::optional<ContactPoint> crossing = by_surfaces.crossing;
+  if (!crossing && open_ && by_surfaces.state != SeparationState::kApart)
+    crossing = crossingAtARecordedTime(scene_, motion, result, motion_error_);
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
   roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
@@ -360,8 +373,20 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   if (crossing) addCrossing(*crossing, result);
   // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
   // than the motion's error.
-  const bool deep = collector.certainDepth() > result.error.chord + result.error.root;
-  result.verdict = deep || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;
+  result.verdict = isDeep(result) || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;
+}
+
+/// Whether findContacts() has found a point that is deeper than the motion's error.
+bool PairChecker::isDeep(const PairResult& result) const {
+  return memory_->collector.certain().depth > result.error.chord + result.error.root;
+}
+
+/// Keeps a point that proves CONTACT while the surfaces are apart: it stays inside until they meet.
+void PairChecker::keepInside(const PairResult& result) {
+  if (result.verdict != Verdict::kContact || !isDeep(result)) return;
+  const ContactCollector::CertainPoint& certain = memory_->collector.certain();
+  const bool is_of_p = surfaces_->motion().p() == (certain.is_of_a ? pair_.body_a : pair_.body_b);
+  inside_ = SurfacePair::InsidePoint{is_of_p, certain.p};
 }
 
 }  // namespace sdf_ccd

@@ -43,7 +43,8 @@ class PairChecker {
   /// Discards the clearance and all other data of earlier cycles.
   void forget() {
     forgetClearance();
-    X_FP_untold_.reset();
+    inside_.reset();
+    untold_.reset();
     if (surfaces_) surfaces_->forget();
   }
 
@@ -69,6 +70,12 @@ class PairChecker {
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
+  /// Where it was last not known whether one body is inside the other, and how often in a row.
+  struct Untold {
+    Isometry3d X_FP;
+    int attempts;
+  };
+
   void forgetClearance() {
     clearance_ = kUnknown;
     outside_ = false;
@@ -88,10 +95,12 @@ class PairChecker {
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;
+  bool isDeep(const PairResult& result) const;
+  void keepInside(const PairResult& result);
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const;
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
-  void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& known,
+  void findContacts(const CycleMotion& motion, const CycleRequest& request, const SurfacePair::Answer& by_surfaces,
                     PairResult& result);
 
   const Scene& scene_;
@@ -103,12 +112,17 @@ class PairChecker {
   PairRoles roles_;
   std::optional<SurfacePair> surfaces_;          // if triangles decide
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
-  bool outside_ = false;         // neither body had a component wholly inside the other at the last cycle's end
-  ErrorBound bound_;             // of field and gap
-  double clearance_ = kUnknown;  // lower bound of the surfaces' distance at the last cycle's end [m]
-  std::optional<Isometry3d> X_FP_untold_;  // where it was last not known whether one body is inside the other
-  Isometry3d X_FP_last_;  // of surfaces_ or the first role, at the last cycle's end; valid if the clearance is known
-  double travel_ = 0.0;   // upper bound of the relative displacement of the bodies' points in this cycle [m]
+  ErrorBound bound_;                             // of field and gap
+
+  // At the last cycle's end:
+  bool outside_ = false;                            // neither body has a component wholly inside the other
+  std::optional<SurfacePair::InsidePoint> inside_;  // the surfaces are apart
+  double clearance_ = kUnknown;                     // lower bound of their distance [m]
+  Isometry3d X_FP_last_ = Isometry3d::Identity();   // of surfaces_ or the first role; valid if one of these is known
+  std::optional<Untold> untold_;
+
+  // Of this cycle:
+  double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]
   double motion_error_ = 0.0;     // of the given motion, and of computing with its poses [m]
   PairMemory* memory_ = nullptr;  // during a call
 };

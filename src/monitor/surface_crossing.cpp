@@ -82,10 +82,9 @@ struct SurfaceCrossing {
 /// @param a, b  B must have fields, which select the triangles of A that come near.
 std::optional<SurfaceCrossing> surfacesCross(const Body& a, const Body& b, const Isometry3d& X_BA, double pose_error) {
   if (!a.surface || !b.surface) return std::nullopt;
-  const AlignedBox3d box_a = boundingBox(a.surface->mesh), box_b = boundingBox(b.surface->mesh);
   // Includes the rounding of coordinates and of a pose between them.
-  const double size =
-      box_a.min().norm() + box_a.sizes().norm() + box_b.min().norm() + box_b.sizes().norm() + X_BA.translation().norm();
+  const auto reach = [](const Body& body) { return body.ball.center.norm() + body.ball.radius; };
+  const double size = reach(a) + reach(b) + X_BA.translation().norm();
   const double error = pose_error + a.surface->deviation + b.surface->deviation + 1e-12 * size;
   constexpr int kMaxTests = 100000;
   int tests = 0;

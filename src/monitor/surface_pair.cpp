@@ -32,15 +32,18 @@ bool isOutsideSolid(const Body& body, const Vector3d& p) {
 }
 
 /// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.
-/// @param inside  set to a point of `inner` that is certainly inside `outer`, if one is found; frame O.
-bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI,
+/// @param attempt  see SurfacePair::containment().
+/// @param inside   set to a point of `inner` that is certainly inside `outer`, if one is found; frame I.
+bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI, int attempt,
                           std::optional<Vector3d>& inside) {
   const auto is_outside = [&](const std::vector<Vector3d>& corners) {
-    for (const Vector3d& p_I : corners) {
+    const std::size_t count = attempt == 0 ? corners.size() : 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector3d& p_I = corners[(attempt + i) % corners.size()];
       const Vector3d p = X_OI * p_I;
       if (isOutsideSolid(outer, p)) return true;
       if (!outer.inside_is_doubtful && outer.triangles->isInside(p)) {
-        inside = p;
+        inside = p_I;
         return false;
       }
     }
@@ -186,12 +189,11 @@ bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
 bool SurfacePair::isBelow(const TwoBodyMotion& motion, double start, double end, double margin,
                           SeparationMemory& memory) {
   const HalfSpace& plane = plane_->half_space;
-  const auto X_FP = [&](double s) { return relativePose(motion.X_WF.pose(s), motion.X_WP.pose(s)); };
-  const Isometry3d X_start = X_FP(start);
+  const Isometry3d X_start = motion.X_FP(start);
   const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);
   if (!(lowest.height < -margin) || --poses_left_ < 0) return false;
   const double length = end - start, bend = motion.acceleration * length * length / 8.0;
-  const double at_end = plane.normal.dot(X_FP(end) * (X_start.inverse() * lowest.p_F)) - plane.offset;
+  const double at_end = plane.normal.dot(motion.X_FP(end) * (X_start.inverse() * lowest.p_F)) - plane.offset;
   if (std::max(lowest.height, at_end) + bend < -margin) return true;
   const double middle = 0.5 * (start + end);
   return bend > 0.02 * resolution_ && isBelow(motion, start, middle, margin, memory) &&
@@ -277,23 +279,24 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   return touch;
 }
 
-SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP) const {
+SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP, int attempt) const {
   if (plane_) return {true, std::nullopt};
-  std::optional<Vector3d> p_F, p_P;
-  const bool excluded =
-      componentsAreOutside(*shell_, *field_, X_FP, p_F) && componentsAreOutside(*field_, *shell_, X_FP.inverse(), p_P);
-  if (p_P) p_F = X_FP * *p_P;
-  return {excluded, p_F};
+  std::optional<Vector3d> p_P, p_F;
+  const bool excluded = componentsAreOutside(*shell_, *field_, X_FP, attempt, p_P) &&
+                        componentsAreOutside(*field_, *shell_, X_FP.inverse(), attempt, p_F);
+  Containment found{excluded, std::nullopt};
+  if (p_P || p_F) found.inside = InsidePoint{p_P.has_value(), p_P ? *p_P : *p_F};
+  return found;
 }
 
-ContactPoint SurfacePair::contactInside(const Vector3d& p_F) const {
+ContactPoint SurfacePair::contactInside(const InsidePoint& inside) const {
   const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
-  const Isometry3d X_WF = last.X_WF.pose(1.0);
-  const Vector3d way = last.X_WP.pose(1.0) * shell_->ball.center - X_WF * field_->ball.center;
+  const Isometry3d X_WF = last.X_WF.pose(1.0), X_WP = last.X_WP.pose(1.0);
+  const Vector3d way = X_WP * shell_->ball.center - X_WF * field_->ball.center;
   ContactPoint contact;
   contact.enter = motion_.motion(0).t_start;
   contact.time = contact.exit = last.t_end;
-  contact.p_W = X_WF * p_F;
+  contact.p_W = (inside.is_of_p ? X_WP : X_WF) * inside.p;
   contact.normal_W = fromAToB(way.norm() > 0.0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitZ()));
   return contact;
 }

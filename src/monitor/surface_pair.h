@@ -68,16 +68,24 @@ class SurfacePair {
   /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
   std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
 
+  /// A point of one body's surface that is certainly inside the other body.
+  struct InsidePoint {
+    bool is_of_p;  ///< of body P
+    Vector3d p;    ///< frame of its own body
+  };
+
   /// Whether a body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are apart.
   struct Containment {
-    bool excluded;                ///< neither has; false also if that is not known
-    std::optional<Vector3d> p_F;  ///< certainly inside both bodies, or on the surface of one; empty if not known
+    bool excluded;                      ///< neither has; false also if that is not known
+    std::optional<InsidePoint> inside;  ///< of such a component; empty if none is known
   };
-  Containment containment(const Isometry3d& X_FP) const;
+  /// @param attempt  0: looks from all corners of each component; otherwise from one of them, another in each attempt,
+  ///                 which takes a fraction of the time.
+  Containment containment(const Isometry3d& X_FP, int attempt = 0) const;
 
-  /// The contact at a point that containment() gives at the motion's end. The surfaces must be apart during the whole
-  /// motion: so one body is inside all the time.
-  ContactPoint contactInside(const Vector3d& p_F) const;
+  /// The contact at a point that is inside at any time of the motion. The surfaces must be apart during all of it: so
+  /// it is inside all the time.
+  ContactPoint contactInside(const InsidePoint& inside) const;
 
   /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
   /// (they are apart, and seen from the outside) or CONTACT (they cross).
