@@ -111,6 +111,42 @@ void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector
   }
 }
 
+double TriangleTree::farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double enough) const {
+  struct Pending {
+    double farthest;  // upper bound
+    std::int32_t node;
+  };
+  const auto pendingAt = [&](std::int32_t index) {
+    const AlignedBox3d& box = nodes_[index].box;
+    return Pending{n.cwiseProduct(box.min() - p).cwiseMax(n.cwiseProduct(box.max() - p)).sum(), index};
+  };
+  const double radius2 = radius * radius;
+  double farthest = -radius;
+  std::array<Pending, kStackSize> stack;
+  int size = 0;
+  stack[size++] = pendingAt(0);
+  while (size > 0) {
+    const Pending pending = stack[--size];
+    const Node& node = nodes_[pending.node];
+    if (pending.farthest <= farthest || squaredDistance(node.box, p) > radius2) continue;
+    if (node.count == 0) {
+      stack[size++] = pendingAt(node.first);
+      stack[size++] = pendingAt(node.first + 1);
+      if (stack[size - 2].farthest > stack[size - 1].farthest) std::swap(stack[size - 2], stack[size - 1]);
+      continue;
+    }
+    for (std::int32_t i = node.first; i < node.first + node.count; ++i) {
+      double along = farthest;
+      for (const Vector3d& corner : triangles_[i].corners()) along = std::max(along, n.dot(corner - p));
+      if (!(along > farthest && triangles_[i].mayBeWithin(radius, p))) continue;
+      if ((triangles_[i].closest(p) - p).squaredNorm() > radius2) continue;
+      farthest = along;
+      if (farthest > enough) return farthest;
+    }
+  }
+  return farthest;
+}
+
 TriangleTree::BoundedNumber TriangleTree::boundedNumber(const Vector3d& p, double accuracy, double bound) const {
   const double accuracy2 = accuracy * accuracy;
   BoundedNumber sum;

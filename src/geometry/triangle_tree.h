@@ -53,6 +53,10 @@ class TriangleTree {
     trianglesWithin(center, farthestDistance(c, center) + margin, triangles);
   }
 
+  /// The largest n·(x − p) of all corners x of triangles within `radius` of p, or −radius if none is larger [m]. Once
+  /// that exceeds `enough`, some value above it is returned.
+  double farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double enough) const;
+
   /// The first triangle, by its index in the mesh, that the ray from p along the unit vector `direction` meets farther
   /// than `min_distance` from p; -1 if there is none. Up to rounding: a ray along an edge may meet either side or none.
   int firstHit(const Vector3d& p, const Vector3d& direction, double min_distance) const;

@@ -28,7 +28,7 @@ class DeepestSearch::MotionSearch {
       const double reach = node.reach[i];
       if (isHidden(center, reach)) continue;
       // All points stay within half of the travel of their positions halfway.
-      const double bound = boundAround(entry_.X_middle * center, reach + 0.5 * entry_.travel);
+      const double bound = boundAround(entry_.X_FP[1] * center, reach + 0.5 * entry_.travel);
       if (BoxTree::isTriangle(node.below[i])) {
         const int index = BoxTree::triangleOf(node.below[i]);
         const RoundedTriangle& triangle = tree.triangle(index);
@@ -42,7 +42,7 @@ class DeepestSearch::MotionSearch {
 
   /// Halves a piece in time or along its longest edge, whichever extends farther.
   void divide(const Piece& piece) {
-    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    const Isometry3d X_start = entry_.poseAt(piece.start), X_end = entry_.poseAt(piece.end);
     const double length = piece.end - piece.start;
     double displacement = motion_.acceleration * length * length / 8.0, longest = -1.0;
     int edge = 0;
@@ -133,7 +133,7 @@ class DeepestSearch::MotionSearch {
   }
 
   void measure(Piece& piece) {
-    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    const Isometry3d X_start = entry_.poseAt(piece.start), X_end = entry_.poseAt(piece.end);
     Hull hull;
     for (int k = 0; k < 3; ++k) {
       hull.corners[k] = X_start * piece.corners[k];
@@ -148,7 +148,7 @@ class DeepestSearch::MotionSearch {
     for (const SolidPart& part : solid_) {
       HullDepth found;
       found.bound = hull.size - part.field->lowerBound(part.X_GB * hull.center);
-      if (!search_.isDone(found.bound + beyond)) found = hullDepth(part, hull, search_.enough(), search_.near_);
+      if (!search_.isDone(found.bound + beyond)) found = hullDepth(part, hull, search_.enough());
       for (int k = 0; k < 6; ++k) highest.at_corners[k] = std::max(highest.at_corners[k], found.at_corners[k]);
       highest.bound = std::max(highest.bound, found.bound);
     }
@@ -181,8 +181,6 @@ class DeepestSearch::MotionSearch {
     return !surface_.parts.empty() && depthIn(surface_.parts, p_P).depth > search_.resolution_;
   }
 
-  Isometry3d poseAt(double s) const { return relativePose(motion_.X_WF.pose(s), motion_.X_WP.pose(s)); }
-
   DeepestSearch& search_;
   int index_;
   const AddedMotion& entry_;
@@ -201,7 +199,7 @@ void DeepestSearch::restart(double resolution) {
 
 void DeepestSearch::add(const EnteringSurface& surface, const std::vector<SolidPart>& solid,
                         const TwoBodyMotion& motion, double travel) {
-  added_.push_back({surface, solid, motion, travel, relativePose(motion.X_WF.pose(0.5), motion.X_WP.pose(0.5))});
+  added_.push_back({surface, solid, motion, travel, {motion.X_FP(0.0), motion.X_FP(0.5), motion.X_FP(1.0)}});
 }
 
 /// Keeps the piece if it may contain a deeper point than the deepest known one.

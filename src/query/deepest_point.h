@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "geometry/box_tree.h"
@@ -70,7 +72,12 @@ class DeepestSearch {
     const std::vector<SolidPart>& solid;
     TwoBodyMotion motion;
     double travel;
-    Isometry3d X_middle;  // X_FP halfway
+    std::array<Isometry3d, 3> X_FP;  // at the start, halfway and at the end
+
+    Isometry3d poseAt(double s) const {
+      const double halves = 2.0 * s;
+      return halves == std::floor(halves) ? X_FP[static_cast<std::size_t>(halves)] : motion.X_FP(s);
+    }
   };
 
   /// The boxes of a node, or a part of a triangle over a part of the motion.
@@ -94,7 +101,6 @@ class DeepestSearch {
   double highest_left_ = 0.0;  // upper bound of the depth in the regions that were skipped [m]
   std::vector<AddedMotion> added_;
   std::vector<Piece> left_;  // a heap
-  std::vector<int> near_;    // triangles near a piece
 };
 
 }  // namespace sdf_ccd

@@ -11,8 +11,8 @@ constexpr double kNear = 2.5;  // radius of the triangles considered around a hu
 
 class HullSearch {
  public:
-  HullSearch(const SolidPart& part, const Hull& hull, double enough, std::vector<int>& near)
-      : part_(part), center_(part.X_GB * hull.center), size_(hull.size), enough_(enough), near_(near) {
+  HullSearch(const SolidPart& part, const Hull& hull, double enough)
+      : part_(part), center_(part.X_GB * hull.center), size_(hull.size), enough_(enough) {
     for (int k = 0; k < 6; ++k) corners_[k] = part.X_GB * hull.corners[k];
   }
 
@@ -23,7 +23,6 @@ class HullSearch {
     if (!part_.solid && depth.out.isZero()) return found_;
     takeSide(depth, center_);
     if (part_.solid && !isDone()) {
-      part_.solid->tree().trianglesWithin(center_, kNear * size_, near_);
       takePlane(normalOf(depth.triangle));
       takePlane(depth.out);
     }
@@ -77,15 +76,17 @@ class HullSearch {
   /// still in the ball. Points beyond the plane are bounded by their distance from the solid, or from points outside
   /// the ball.
   void takePlane(const Vector3d& n) {
+    if (n.isZero()) return;
     const double radius = kNear * size_;
-    double h = -radius;
-    for (const int i : near_) {
-      for (const Vector3d& p : part_.solid->tree().triangle(i).corners()) h = std::max(h, n.dot(p - center_));
-    }
-    if (!(h < radius) || n.isZero()) return;
+    HullValues along;
+    for (int k = 0; k < 6; ++k) along[k] = n.dot(corners_[k] - center_);
+    const auto [least, most] = std::minmax_element(along.begin(), along.end());
+    // A plane farther out bounds no better, or the ray from a corner may leave the ball before it.
+    const double farthest = std::min(found_.bound + *most, radius - size_ + *least);
+    const double h = part_.solid->tree().farthestAlong(n, center_, radius, farthest);
+    if (h > farthest || !(h < radius)) return;
     HullValues behind;
-    for (int k = 0; k < 6; ++k) behind[k] = std::max(h - n.dot(corners_[k] - center_), size_ - radius);
-    if (size_ + *std::max_element(behind.begin(), behind.end()) > radius) return;
+    for (int k = 0; k < 6; ++k) behind[k] = std::max(h - along[k], size_ - radius);
     if (!isInside(part_, center_ + radius * n)) take(behind);
   }
 
@@ -106,7 +107,6 @@ class HullSearch {
   const Vector3d center_;
   std::array<Vector3d, 6> corners_;
   const double size_, enough_;
-  std::vector<int>& near_;
 
   HullDepth found_;
   std::array<HullValues, 5> sides_;  // per bound: its values at the corners, between which it is convex
@@ -116,8 +116,8 @@ class HullSearch {
 
 }  // namespace
 
-HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough, std::vector<int>& near) {
-  return HullSearch(part, hull, enough, near).run();
+HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough) {
+  return HullSearch(part, hull, enough).run();
 }
 
 }  // namespace sdf_ccd

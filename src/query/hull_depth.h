@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "query/part_depth.h"
 
@@ -26,7 +25,6 @@ struct HullDepth {
 /// Bounds the depth in one element of a body. The bounds and why they hold: see DeepestSearch.
 /// @param hull    in the body's frame.
 /// @param enough  a smaller bound is not tightened [m].
-/// @param near    memory for triangles near the hull.
-HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough, std::vector<int>& near);
+HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough);
 
 }  // namespace sdf_ccd

@@ -107,6 +107,32 @@ TEST(TriangleTree, MaxDistanceCutsOffExactlyThere) {
   EXPECT_EQ(tree.closestPoint({3, 0, 0}, 0.0).triangle, -1);
 }
 
+TEST(TriangleTree, FarthestAlongEqualsBruteForce) {
+  const TriangleMesh mesh = randomSoup(700, 5);
+  const TriangleTree tree(mesh);
+  std::mt19937_64 random(6);
+  int found_some = 0, stopped = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d p = randomPoint(random, 1.1), n = randomPoint(random, 1).normalized();
+    const double radius = std::abs(randomPoint(random, i % 2 ? 0.1 : 1.0).x());
+    double farthest = -radius;
+    for (const Vector3i& t : mesh.triangles) {
+      const Corners corners = cornersOf(mesh.vertices, t);
+      if ((closestOnTriangle(corners, p) - p).norm() > radius) continue;
+      for (const Vector3d& corner : corners) farthest = std::max(farthest, n.dot(corner - p));
+    }
+    EXPECT_DOUBLE_EQ(tree.farthestAlong(n, p, radius, kInfinity), farthest);
+    EXPECT_DOUBLE_EQ(tree.farthestAlong(n, p, radius, farthest), farthest);
+    const double less = farthest - 0.1 * radius, beyond = tree.farthestAlong(n, p, radius, less);
+    EXPECT_LE(beyond, farthest + 1e-15);
+    EXPECT_TRUE(beyond > less || farthest == -radius);
+    found_some += farthest > -radius;
+    stopped += beyond < farthest;
+  }
+  EXPECT_GT(found_some, 500);
+  EXPECT_GT(stopped, 10);
+}
+
 TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
   const TriangleMesh mesh = randomSoup(300, 3);
   const TriangleTree tree(mesh);

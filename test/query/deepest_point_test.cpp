@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "oracle/drawn_meshes.h"
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
@@ -81,6 +82,35 @@ Found search(const EnteringSurface& surface, const std::vector<SolidPart>& solid
   search.add(surface, solid, motion, bounds.travel);
   search.run(max_pieces);
   return {search.deepest(), search.error()};
+}
+
+/// Also close to the surface, beside faces, edges and corners, where solids overlap, and where walls are drawn twice.
+TEST(PartDepth, HasTheSideThatTheWindingNumberTells) {
+  Random random(3);
+  const TriangleMesh box = test::boxMesh({0.05, 0.04, 0.03}), torus = test::torusMesh(0.05, 0.02, 12, 8);
+  const TriangleMesh hollow = merged(test::boxMesh({0.08, 0.08, 0.08}), test::flipped(test::icosphere(0.07, 2)));
+  for (const TriangleMesh& mesh : {box, torus, test::icosphere(0.05, 2), hollow, test::bowTieMesh(),
+                                   merged(box, test::translated(torus, {0.03, 0.01, 0}))}) {
+    const MeshSolid solid(mesh);
+    ASSERT_TRUE(solid.solid.closed());
+    const MeshTruth truth(solid.solid.boundary());
+    int sides[2] = {};
+    for (int i = 0; i < 4000; ++i) {
+      const Corners corners =
+          cornersOf(solid.solid.boundary(), int(random() % solid.solid.boundary().triangles.size()));
+      double u = test::uniform(random, 0.0, 1.0), v = test::uniform(random, 0.0, 1.0);
+      if (i % 4 == 0) u = std::round(u), v = std::round(v);  // corners and a middle
+      if (i % 4 == 1) v = 0.0;                               // an edge
+      const Vector3d on_surface =
+          corners[0] + u * (corners[1] - corners[0]) + v * (1.0 - u) * (corners[2] - corners[0]);
+      const Vector3d p = on_surface + std::pow(10.0, test::uniform(random, -7.0, -1.5)) * test::direction(random);
+      const Real depth = truth.depth(p.cast<Real>());
+      const PartDepth found = depthIn(solid.parts.front(), p);
+      ASSERT_NEAR(double(depth), found.depth, 1e-9) << i;
+      ++sides[depth > 0.0L];
+    }
+    EXPECT_GT(std::min(sides[0], sides[1]), 1000);
+  }
 }
 
 /// The largest depth that random samples of the surface and the motion find, with a local search from the best of them.
