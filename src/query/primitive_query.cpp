@@ -58,9 +58,9 @@ class RoundLine {
   RoundLine(const Vector3d& start, const Vector3d& displacement)
       : a_(displacement.squaredNorm()), b_(start.dot(displacement)), c_(start.squaredNorm()) {}
 
-  /// Adds parameters that cut the interval where the distance turns, if it does so there. The distance is smooth but
-  /// for the complex parameters nearest ± i least, where it is 0: three-point Gauss has a relative error below 1e-6 on
-  /// an interval that is three times its length away from them.
+  /// Adds the parameter where the distance is least, and those that cut the interval where it turns, if it does so
+  /// there. The distance is smooth but for the complex parameters nearest ± i least, where it is 0: three-point Gauss
+  /// has a relative error below 1e-6 on an interval that is three times its length away from them.
   template <class Add>
   void addTurns(const Interval& interval, const Add& add) const {
     constexpr double kFar = 3.0;
@@ -68,10 +68,10 @@ class RoundLine {
     if (!(a_ > 0.0)) return;
     const double length = interval.exit - interval.enter;
     const double nearest = -b_ / a_, least = std::sqrt(std::max(0.0, c_ + b_ * nearest) / a_);
+    add(nearest);
     const double before = std::max({0.0, interval.enter - nearest, nearest - interval.exit});
     if (before * before + least * least >= kFar * kFar * length * length) return;
     for (int i = 1; i < kPieces; ++i) add(interval.enter + length * i / kPieces);
-    add(nearest);
     // The direction to the center turns by 90 degrees while the point moves by twice its least distance.
     for (const double share : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
       add(nearest - share * least);

@@ -146,6 +146,41 @@ TEST(Penalty, DepthIsFoundBetweenTheNodes) {
   EXPECT_LT((deepest.p_C - Vector3d(0, b, 0)).norm(), 1e-4);
 }
 
+/// Along a straight path through a convex solid the depth is concave: a ternary search finds its maximum.
+TEST(Penalty, DepthInRoundBodiesIsExact) {
+  const auto inCylinder = [](const Vector3d& p) { return std::min(0.5 - p.head<2>().norm(), 0.3 - std::abs(p.z())); };
+  const auto inBall = [](const Vector3d& p) { return 0.5 - p.norm(); };
+  const std::vector<std::pair<DistanceField, std::function<double(const Vector3d&)>>> bodies = {
+      {DistanceField(Cylinder{0.5, 0.3}), inCylinder}, {DistanceField(Sphere{0.5}), inBall}};
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (const auto& [field, depthAt] : bodies) {
+    int found = 0;
+    for (int i = 0; i < 2000; ++i) {
+      // The point nearest to the center or axis is often close to one end of the path.
+      const Vector3d middle = 0.5 * Vector3d(u(random), u(random), u(random)),
+                     way = std::pow(10.0, u(random) - 0.7) * Vector3d(u(random), u(random), i % 3 ? u(random) : 0.0);
+      const double at = 0.5 + 0.5 * u(random) * u(random) * u(random);
+      const Vector3d from = middle - at * way;
+      const ContactCase moving{field, onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
+                               oneChord(1.0, translation(from), translation(from + way))};
+      const std::vector<HitDepth> depths = moving.run(perArea(), {i % 2 == 0, true}).depths;
+      double low = 0.0, high = 1.0;
+      for (int step = 0; step < 200; ++step) {
+        const double a = (2.0 * low + high) / 3.0, b = (low + 2.0 * high) / 3.0;
+        (depthAt(from + a * way) < depthAt(from + b * way) ? low : high) =
+            depthAt(from + a * way) < depthAt(from + b * way) ? a : b;
+      }
+      const double deepest = depthAt(from + low * way);
+      if (!(deepest > 1e-9)) continue;
+      ASSERT_EQ(depths.size(), 1u) << i;
+      ASSERT_NEAR(depths[0].depth, deepest, 1e-8) << i;
+      ++found;
+    }
+    EXPECT_GT(found, 1000);
+  }
+}
+
 TEST(Penalty, WithoutImpulseOnlyDepthsAreFound) {
   const Isometry3d X_FP = translation({0, 0, -0.002});
   const ContactCase pressed{DistanceField(ground()), bottomFace(0.05, 4), oneChord(1.0, X_FP, X_FP)};
