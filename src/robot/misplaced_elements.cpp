@@ -62,11 +62,9 @@ bool isOfShape(const std::string& name_in_lower_case) {
   return names.count(name_in_lower_case) > 0;
 }
 
-/// Elements of a link in which others than collision shapes have their names.
-bool isExtension(const std::string& name) {
-  static const std::set<std::string> names = {"collision_checking", "contact", "gazebo",
-                                              "material",           "sensor",  "self_collision_checking"};
-  return names.count(name) > 0;
+/// Whether what is inside an element of this name is no part of the robot: Gazebo's elements have the same names.
+bool isExtension(const std::string& name_in_lower_case) {
+  return name_in_lower_case == "gazebo" || name_in_lower_case == "material";
 }
 
 /// @param is_read  whether all of the parent's elements matter; otherwise only whole collision elements.

@@ -163,10 +163,12 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
       {"origin", "<origin xyz='0 0 1'/>" + cube, ""},
       {"extended",
        "<self_collision_checking><origin/><geometry><capsule/></geometry></self_collision_checking><sensor><contact>"
-       "<collision>c</collision></contact></sensor><gazebo><collision/></gazebo><extra><geometry><a/><b/></geometry></"
+       "<collision>c</collision></contact></sensor><gazebo><collision><geometry/></collision></"
+       "gazebo><extra><geometry><a/><b/></geometry></"
        "extra>" +
            cube,
        ""},
+      {"painted", "<collision><geometry>" + sphere + "<material name='red'/></geometry></collision>", ""},
       {"capsule", "<collision><geometry>" + sphere + "<capsule/></geometry></collision>",
        "<capsule> is ignored: its <geometry> has a shape already"},
       {"two", "<collision><geometry>" + sphere + "\n<cylinder radius='1' length='1'/></geometry></collision>",
