@@ -35,13 +35,35 @@ std::string inLowerCase(std::string name) {
   return name;
 }
 
-/// Why urdfdom ignores an element of one of these names; empty if it does not.
+/// Whether a text is of numbers, and not all of them are 0: a place or a rotation.
+bool isPlacing(const std::string& text) {
+  return text.find_first_of("123456789") != std::string::npos &&
+         text.find_first_not_of("0123456789+-.eE, \t\r\n") == std::string::npos;
+}
+
+/// The first attribute of an <origin> that urdfdom does not read though it places something, as text; empty if there
+/// is none.
+std::string ignoredPlacing(const XMLElement& origin) {
+  for (const tinyxml2::XMLAttribute* attribute = origin.FirstAttribute(); attribute; attribute = attribute->Next()) {
+    const std::string name = attribute->Name(), value = attribute->Value();
+    if (isPlacing(value) && name != "xyz" && name != "rpy") return shownText(name + "=\"" + value + "\"");
+  }
+  return {};
+}
+
+/// Why urdfdom ignores an element of one of these names, or what it says; empty if it does not.
 std::string whyIgnored(const XMLElement& element, const std::string& parent) {
   const std::string written = element.Name(), name = inLowerCase(written);
   const std::string line =
       "line " + std::to_string(element.GetLineNum()) + " of the URDF: <" + shownText(written) + "> ";
   const bool is_shape = parent == "geometry";  // whatever its name
   if (is_shape && element.PreviousSiblingElement()) return line + "is ignored: its <geometry> has a shape already";
+  if (name == "pose") {  // of SDFormat
+    if (!element.GetText() || !isPlacing(element.GetText())) return {};
+    const bool has_place = kParents.at("origin").count(parent) > 0;
+    return line + "in <" + shownText(parent) + "> is ignored: " +
+           (has_place ? "it must be <origin xyz=\"...\" rpy=\"...\">" : "links are placed by the <origin> of joints");
+  }
   const auto known = kParents.find(name);
   if (known == kParents.end()) return {};
   if (known->second.count(inLowerCase(parent)) == 0) {
@@ -52,8 +74,10 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
   if (is_shape) return {};  // the parser reports it, if it cannot be read
   if (written != name) return line + "is ignored: it must be <" + name + ">";
   const bool can_be_many = name == "link" || name == "joint" || name == "collision";
-  if (can_be_many || !element.PreviousSiblingElement(name.c_str())) return {};
-  return line + "is ignored: its <" + parent + "> has one already";
+  if (!can_be_many && element.PreviousSiblingElement(name.c_str()))
+    return line + "is ignored: its <" + parent + "> has one already";
+  const std::string placing = name == "origin" ? ignoredPlacing(element) : "";
+  return placing.empty() ? "" : line + "has " + placing + ", which is ignored: its attributes are xyz and rpy";
 }
 
 /// Whether an element with this name holds a shape, or is one.

@@ -8,7 +8,8 @@
 namespace sdf_ccd {
 
 /// The first element of a link that urdfdom ignores without an error though it is, or places, a collision shape: one
-/// whose name has the wrong case, at a wrong place, or the second where there can be one. Empty if there is none.
+/// whose name has the wrong case or is SDFormat's, at a wrong place, or the second where there can be one; or an
+/// <origin> that is placed by unknown attributes. Empty if there is none.
 std::string misplacedShape(const tinyxml2::XMLElement& link);
 
 /// The same for elements of the robot itself, of its joints, and others of its links than shapes; a line each, for the

@@ -379,6 +379,13 @@ TEST(RobotModel, ElementsThatTheParserPassesOverAreNamed) {
             std::vector<std::string>{"joint j: line 2 of the URDF: <Origin> is ignored: it must be <origin>"});
   EXPECT_EQ(warnings("<origin xyz='1 0 0'/><origin xyz='2 0 0'/>", ""),
             std::vector<std::string>{"joint j: line 2 of the URDF: <origin> is ignored: its <joint> has one already"});
+  EXPECT_EQ(warnings("<pose>1 0 0 0 0 0</pose>", ""),
+            std::vector<std::string>{"joint j: line 2 of the URDF: <pose> in <joint> is ignored: it must be <origin "
+                                     "xyz=\"...\" rpy=\"...\">"});
+  EXPECT_EQ(warnings("<origin position='1 0 0' rpy='0 0 0' name='j'/>", ""),
+            std::vector<std::string>{"joint j: line 2 of the URDF: <origin> has position=\"1 0 0\", which is ignored: "
+                                     "its attributes are xyz and rpy"});
+  EXPECT_TRUE(warnings("<origin xyz='1 0 0' name='j'/>", "").empty());
   EXPECT_EQ(warnings("", "<Link name='c'/><axis/>"),
             (std::vector<std::string>{"line 3 of the URDF: <Link> is ignored: it must be <link>",
                                       "line 3 of the URDF: <axis> in <robot> is ignored: it belongs in <joint>"}));

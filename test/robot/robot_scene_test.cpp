@@ -161,6 +161,7 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
            visual + "<!-- <Box/> -->" + cube,
        ""},
       {"origin", "<origin xyz='0 0 1'/>" + cube, ""},
+      {"pose", "<pose>0 0 1 0 0 0</pose>" + cube, ""},
       {"extended",
        "<self_collision_checking><origin/><geometry><capsule/></geometry></self_collision_checking><sensor><contact>"
        "<collision>c</collision></contact></sensor><gazebo><collision><geometry/></collision></"
@@ -179,6 +180,17 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
        "<Collision> is ignored: it must be <collision>"},
       {"moved", "<collision><Origin xyz='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
        "<Origin> is ignored: it must be <origin>"},
+      {"posed", "<collision><pose>1 0 0 0 0 0</pose><geometry>" + sphere + "</geometry></collision>",
+       "<pose> in <collision> is ignored: it must be <origin xyz=\"...\" rpy=\"...\">"},
+      {"rotated", "<collision><origin xyz='1 0 0' rotation='0 0 1.5'/><geometry>" + sphere + "</geometry></collision>",
+       "<origin> has rotation=\"0 0 1.5\", which is ignored: its attributes are xyz and rpy"},
+      {"shouted", "<collision><origin XYZ='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
+       "<origin> has XYZ=\"1 0 0\", which is ignored: its attributes are xyz and rpy"},
+      {"annotated", "<collision><origin xyz='1 0 0' from='CAD 2'/><geometry>" + sphere + "</geometry></collision>", ""},
+      {"unmoved",
+       "<collision><pose>0 0 0 -0.0 0 0</pose><origin xyz='1 0 0' rotation='0 0 0'/><geometry>" + sphere +
+           "</geometry></collision>",
+       ""},
       {"bare", "<geometry>" + sphere + "</geometry>",
        "<geometry> in <link> is ignored: it belongs in <collision> or <visual>"},
       {"seen",
@@ -201,8 +213,11 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
     EXPECT_EQ(failures[name].empty(), failure.empty()) << name;
     EXPECT_TRUE(failures[name].find(failure) != std::string::npos) << name << ": " << failures[name];
   }
-  ASSERT_EQ(described.warnings.size(), 1u);
+  ASSERT_EQ(described.warnings.size(), 2u);
   EXPECT_NE(described.warnings[0].find("link origin: line "), std::string::npos) << described.warnings[0];
+  EXPECT_NE(described.warnings[1].find("<pose> in <link> is ignored: links are placed by the <origin> of joints"),
+            std::string::npos)
+      << described.warnings[1];
 }
 
 TEST(RobotScene, LinksWhoseNamesAreNotTextLoseNoElementUnnoticed) {
