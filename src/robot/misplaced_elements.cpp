@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "common/shown_text.h"
 
@@ -27,8 +28,6 @@ const std::map<std::string, std::set<std::string>> kParents = {{"link", {"robot"
                                                                {"axis", {"joint"}},
                                                                {"limit", {"joint"}},
                                                                {"mimic", {"joint"}}};
-
-constexpr std::size_t kMost = 10;  // lines of a robot
 
 std::string inLowerCase(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -58,6 +57,7 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
       "line " + std::to_string(element.GetLineNum()) + " of the URDF: <" + shownText(written) + "> ";
   const bool is_shape = parent == "geometry";  // whatever its name
   if (is_shape && element.PreviousSiblingElement()) return line + "is ignored: its <geometry> has a shape already";
+  if (name == "robot") return line + "is ignored: the URDF has one already";
   if (name == "pose") {  // of SDFormat
     if (!element.GetText() || !isPlacing(element.GetText())) return {};
     const bool has_place = kParents.at("origin").count(parent) > 0;
@@ -91,6 +91,15 @@ bool isExtension(const std::string& name_in_lower_case) {
   return name_in_lower_case == "gazebo" || name_in_lower_case == "material";
 }
 
+/// Whether an element of this name is a part of a robot wherever it stands: other formats' have less inside.
+bool isWhole(const XMLElement& element, const std::string& name_in_lower_case) {
+  const auto has = [&](const char* inside) { return element.FirstChildElement(inside) != nullptr; };
+  if (name_in_lower_case == "collision") return has("geometry");
+  if (name_in_lower_case == "link") return has("collision") || has("visual") || has("inertial");
+  if (name_in_lower_case == "joint") return has("parent") && has("child");
+  return name_in_lower_case == "robot" && (has("link") || has("joint"));
+}
+
 /// @param is_read  whether all of the parent's elements matter; otherwise only whole collision elements.
 std::string firstIgnored(const XMLElement& parent, bool is_read) {
   for (auto element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
@@ -99,7 +108,7 @@ std::string firstIgnored(const XMLElement& parent, bool is_read) {
     if (is_visuals || isExtension(lower)) continue;
     // What else a link should not have, such as an origin of its own, moves no shape for any reader.
     const bool matters = is_read && (isOfShape(lower) || parent.Name() != std::string("link"));
-    if (matters || (lower == "collision" && element->FirstChildElement("geometry"))) {
+    if (matters || (lower == "collision" && isWhole(*element, lower))) {
       if (std::string why = whyIgnored(*element, parent.Name()); !why.empty()) return why;
     }
     const bool is_read_below = is_read && (name == "collision" || name == "geometry");
@@ -108,6 +117,38 @@ std::string firstIgnored(const XMLElement& parent, bool is_read) {
   return {};
 }
 
+/// Lines about elements that urdfdom ignores: the first ten.
+class IgnoredElements {
+ public:
+  void add(const XMLElement& element, const std::string& whose) {
+    constexpr std::size_t kMost = 10;
+    if (lines_.size() >= kMost) return;
+    const XMLElement* parent = element.Parent()->ToElement();
+    if (const std::string why = whyIgnored(element, parent ? parent->Name() : ""); !why.empty())
+      lines_.push_back(whose + why);
+  }
+
+  /// Adds links, joints and shapes below an element that the robot has besides its links and joints.
+  void addBelow(const XMLElement& unknown) {
+    const std::string name = inLowerCase(unknown.Name());
+    if (isExtension(name) || name.rfind("xacro:", 0) == 0) return;
+    for (auto element = unknown.FirstChildElement(); element; element = element->NextSiblingElement()) {
+      const std::string kind = inLowerCase(element->Name());
+      if (!isWhole(*element, kind)) {
+        addBelow(*element);
+        continue;
+      }
+      const char* its_name = kind == "link" || kind == "joint" ? element->Attribute("name") : nullptr;
+      add(*element, its_name ? kind + " " + shownText(its_name) + ": " : "");
+    }
+  }
+
+  std::vector<std::string> take() { return std::move(lines_); }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
 }  // namespace
 
 std::string misplacedShape(const XMLElement& link) {
@@ -115,20 +156,19 @@ std::string misplacedShape(const XMLElement& link) {
 }
 
 std::vector<std::string> misplacedElements(const XMLElement& robot) {
-  std::vector<std::string> lines;
-  const auto add = [&](const XMLElement& element, const std::string& parent, const std::string& whose) {
-    if (lines.size() >= kMost) return;
-    if (const std::string why = whyIgnored(element, parent); !why.empty()) lines.push_back(whose + why);
-  };
+  IgnoredElements ignored;
+  for (auto root = robot.Parent()->FirstChildElement(); root; root = root->NextSiblingElement())
+    if (root != &robot && inLowerCase(root->Name()) == "robot") ignored.add(*root, "");
   for (auto element = robot.FirstChildElement(); element; element = element->NextSiblingElement()) {
-    add(*element, "robot", "");
+    ignored.add(*element, "");
     const std::string kind = element->Name();
     const char* name = element->Attribute("name");
+    if (inLowerCase(kind) != "joint" && inLowerCase(kind) != "link") ignored.addBelow(*element);
     if ((kind != "joint" && kind != "link") || !name) continue;
     for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement())
-      if (!isOfShape(inLowerCase(part->Name()))) add(*part, kind, kind + " " + shownText(name) + ": ");
+      if (!isOfShape(inLowerCase(part->Name()))) ignored.add(*part, kind + " " + shownText(name) + ": ");
   }
-  return lines;
+  return ignored.take();
 }
 
 }  // namespace sdf_ccd

@@ -12,8 +12,10 @@ namespace sdf_ccd {
 /// <origin> that is placed by unknown attributes. Empty if there is none.
 std::string misplacedShape(const tinyxml2::XMLElement& link);
 
-/// The same for elements of the robot itself, of its joints, and others of its links than shapes; a line each, for the
-/// first ten.
+/// The same for elements of the robot itself, of its joints, and others of its links than shapes; for links and joints
+/// below elements that urdfdom does not know; and for a second robot, also beside the first. A line each, for the first
+/// ten.
+/// @param robot  the document's first <robot>.
 std::vector<std::string> misplacedElements(const tinyxml2::XMLElement& robot);
 
 }  // namespace sdf_ccd

@@ -58,7 +58,7 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
   if (const std::string macros = unexpandedMacros(document, "URDF"); !macros.empty()) warnings.push_back(macros);
-  if (const tinyxml2::XMLElement* robot = document.RootElement()) {
+  if (const tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
     const std::vector<std::string> misplaced = misplacedElements(*robot);
     warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());
   }

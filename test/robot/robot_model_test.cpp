@@ -391,5 +391,42 @@ TEST(RobotModel, ElementsThatTheParserPassesOverAreNamed) {
                                       "line 3 of the URDF: <axis> in <robot> is ignored: it belongs in <joint>"}));
 }
 
+TEST(RobotModel, LinksAndJointsThatTheParserDoesNotFindAreNamed) {
+  const auto warnings = [](const std::string& inside, const std::string& behind = "") {
+    return RobotModel("<robot name='r'><link name='a'/>\n" + inside + "</robot>\n" + behind).warnings();
+  };
+  const std::string link = "<link name='c'><visual/></link>";
+  const std::string joint = "<joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint>";
+  EXPECT_EQ(warnings("<group>" + link + "<part>" + joint + "</part></group>"),
+            (std::vector<std::string>{"link c: line 2 of the URDF: <link> in <group> is ignored: it belongs in <robot>",
+                                      "joint k: line 2 of the URDF: <joint> in <part> is ignored: it belongs in "
+                                      "<robot>"}));
+  EXPECT_EQ(
+      warnings("<links><Link name='c'><inertial/></Link></links>"),
+      std::vector<std::string>{"link c: line 2 of the URDF: <Link> in <links> is ignored: it belongs in <robot>"});
+  const std::string second = " is ignored: the URDF has one already";
+  EXPECT_EQ(warnings("<robot name='s'>" + link + "</robot>"),
+            std::vector<std::string>{"line 2 of the URDF: <robot>" + second});
+  EXPECT_EQ(warnings("<tools><robot name='s'>" + link + "</robot></tools>"),
+            std::vector<std::string>{"line 2 of the URDF: <robot>" + second});
+  EXPECT_EQ(warnings("", "<robot name='s'>" + link + "</robot>"),
+            std::vector<std::string>{"line 3 of the URDF: <robot>" + second});
+  // Other formats' elements of these names.
+  EXPECT_TRUE(warnings("<gazebo><model><link name='c'><visual/></link></model></gazebo><group name='arm'>"
+                       "<link name='a'/><joint name='j'/></group><ros2_control><joint name='j'><param/></joint>"
+                       "</ros2_control><plugin><robot>r</robot></plugin>",
+                       "<about/>")
+                  .empty());
+  EXPECT_TRUE(warnings("<xacro:macro name='m' params=''>" + link + "</xacro:macro>").empty());
+}
+
+TEST(RobotModel, TheRobotNeedNotBeTheFirstElement) {
+  const RobotModel robot(
+      "<about><link name='c'><visual/></link></about>\n<robot name='r'><link name='a'/><axis/></robot>");
+  EXPECT_EQ(robot.warnings(),
+            std::vector<std::string>{"line 2 of the URDF: <axis> in <robot> is ignored: it belongs in "
+                                     "<joint>"});
+}
+
 }  // namespace
 }  // namespace sdf_ccd
