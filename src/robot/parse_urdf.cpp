@@ -14,6 +14,7 @@
 
 #include "common/number_text.h"
 #include "common/text_limits.h"
+#include "empty_visuals.h"
 #include "joint_kind.h"
 #include "misplaced_elements.h"
 #include "unexpanded_macros.h"
@@ -49,7 +50,8 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
-/// The document as written by tinyxml2: urdfdom's XML reader reads beyond the end of some damaged documents.
+/// The document as written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents;
+/// and without empty visuals.
 std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
   requireXmlSize(xml);
   const std::string text = soundText(xml);
@@ -58,9 +60,11 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
     throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
   }
   if (const std::string macros = unexpandedMacros(document, "URDF"); !macros.empty()) warnings.push_back(macros);
-  if (const tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
+  if (tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
     const std::vector<std::string> misplaced = misplacedElements(*robot);
     warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());
+    for (auto link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
+      removeEmptyVisuals(*link);
   }
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);

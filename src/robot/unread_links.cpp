@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include "common/text_limits.h"
+#include "empty_visuals.h"
 #include "misplaced_elements.h"
 #include "parse_urdf.h"
 
@@ -36,12 +37,13 @@ std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model
                              document.ErrorName());
   }
   std::map<std::string, std::string> reasons;
-  const XMLElement* robot = document.FirstChildElement("robot");
+  XMLElement* robot = document.FirstChildElement("robot");
   for (auto link = robot ? robot->FirstChildElement("link") : nullptr; link; link = link->NextSiblingElement("link")) {
     const char* name = link->Attribute("name");
     const auto read = name ? model.getLink(name) : nullptr;
     if (!read) continue;
     if (const std::string misplaced = misplacedShape(*link); !misplaced.empty()) reasons[name] = misplaced;
+    removeEmptyVisuals(*link);  // as in the text that the model was read from
     const std::size_t written = countChildren(*link, "collision");
     if (read->collision_array.size() == written) continue;
     reasons[name] = "line " + std::to_string(link->GetLineNum()) +

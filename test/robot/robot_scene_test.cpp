@@ -220,6 +220,31 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
       << described.warnings[1];
 }
 
+TEST(RobotScene, AVisualWithoutAShapeCostsNoCollisionShape) {
+  const std::string cube = box("0.1 0.1 0.1");
+  const Described described = describe(
+      "<robot name='r'>" + link("empty", "<visual/>" + cube) +
+      link("bare", cube + "<visual><origin xyz='0 0 1'/><geometry/></visual>") +
+      link("coloured", "<visual name='v'><material name='red'/></visual>" + cube) + link("alone", "<visual/>") +
+      link("short", "<visual/>" + box("1 1")) + link("hidden", "<visual>" + cube + "</visual>") +
+      joint("empty", "hidden", "floating", "0 0 0") + joint("empty", "bare", "floating", "0 0 0") +
+      joint("empty", "coloured", "floating", "0 0 0") + joint("empty", "alone", "floating", "0 0 0") +
+      joint("empty", "short", "floating", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 5u);
+  for (const BodyDescription& body : described.scene.bodies) {
+    if (body.name == "hidden") {
+      EXPECT_NE(body.failure.find("<collision> in <visual> is ignored"), std::string::npos) << body.failure;
+    } else if (body.name == "short") {
+      EXPECT_NE(body.failure.find("1 of 1 collision elements cannot be read: "), std::string::npos) << body.failure;
+      EXPECT_EQ(body.failure.find("visual"), std::string::npos) << body.failure;
+    } else {
+      EXPECT_EQ(body.failure, "") << body.name;
+      EXPECT_EQ(body.geometry.size(), 1u) << body.name;
+    }
+  }
+  EXPECT_TRUE(described.scene.visual_only.empty());
+}
+
 TEST(RobotScene, LinksWhoseNamesAreNotTextLoseNoElementUnnoticed) {
   const Described described =
       describe("<robot name='r'>" + link("base", box("1 1 1")) + link("bras_\xe9", box("0.1 0.1 0.1") + box("1 1")) +
