@@ -6,8 +6,10 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
 #include "common/seconds_since.h"
+#include "geometry/unit_hint.h"
 #include "model/error_budget.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"
@@ -24,6 +26,19 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kRound = 256;    // states between two updates of the undecided pairs
 constexpr std::size_t kAlways = 1000;  // random states that decide Always: each costs a search for contacts
+
+/// Of each mesh once, for the first link that has it.
+void warnOfUnits(const SceneDescription& description, std::vector<std::string>& warnings) {
+  std::set<std::string> told;
+  for (const BodyDescription& body : description.bodies) {
+    for (const GeometryDescription& geometry : body.geometry) {
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+      const std::string hint = mesh ? unitHint(**mesh) : "";
+      if (hint.empty() || !told.insert(geometry.source + hint).second) continue;
+      warnings.push_back(body.name + ": " + geometry.source + ": " + hint);
+    }
+  }
+}
 
 /// Of each joint the least and the greatest position.
 std::map<std::string, Range> rangesOf(const JointStates& states) {
@@ -236,6 +251,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   RobotSceneOptions all;
   all.check_adjacent = true;
   SceneDescription description = describeRobot(robot, {}, loader, all, pairs.warnings);
+  warnOfUnits(description, pairs.warnings);
   const JointSampler sampler(robot, options.seed);
   for (const std::string& joint : sampler.withoutLimits()) {
     pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");

@@ -10,6 +10,8 @@
 
 #include "oracle/failure.h"
 #include "oracle/files.h"
+#include "oracle/mesh_bytes.h"
+#include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "robot/joint_sampler.h"
 
@@ -202,6 +204,27 @@ TEST(LearnPairs, WhatTheErrorWouldCostIsRefusedBeforeItIsBuilt) {
   options.max_error = 1e-8;
   const std::string failure = test::failureOf<std::length_error>([&] { learn(scissors(), options); });
   EXPECT_EQ(failure.find("a max_error of 1e-08 m would take "), 0u) << failure;
+}
+
+/// Also of those that cost nothing here, as their pairs need no test; the cost of others names them.
+TEST(LearnPairs, AsksWhetherMeshesAreInMillimetres) {
+  const auto part = [](const std::string& link, const std::string& file) {
+    return "<link name='" + link + "'><collision><geometry><mesh filename='" + file +
+           "'/></geometry></collision></link>";
+  };
+  const std::string urdf = "<robot name='r'>" + sphere("base", 0.0) + part("arm", "part.off") +
+                           joint("base", "arm", "continuous") + part("hand", "small.off") +
+                           joint("arm", "hand", "continuous", "<origin xyz='1 0 0'/>") + part("twin", "part.off") +
+                           joint("base", "twin", "fixed") + "</robot>";
+  const ResourceLoader loader = [](const std::string& uri) -> Resource {
+    return {test::off(test::boxMesh(Vector3d::Constant(uri == "part.off" ? 160.0 : 0.16))), uri, ""};
+  };
+  const Srdf srdf = parseSrdf("<robot name='r'><disable_default_collisions link='twin'/></robot>");
+  LearnOptions options = coarse();
+  options.states = 2;
+  EXPECT_EQ(learnPairs(RobotModel(urdf), srdf, loader, options).warnings,
+            std::vector<std::string>{"arm: part.off: 320 m long: is it in millimetres? Meshes are taken to be in "
+                                     "metres, times their scale"});
 }
 
 /// The demo's arm: the elbow bends to 2.7 rad at most, so that the wrist's axis, 0.35 m behind it, stays 0.149 m from
