@@ -13,9 +13,10 @@ namespace sdf_ccd {
 /// Draws random joint positions within a robot's limits; equal for equal seeds, on every machine.
 ///
 /// Three of four states are uniform: within the limits, in either order; over a full revolution for continuous joints
-/// and for revolute joints without limits (two equal ones). In every fourth state each limited joint is at one of its
-/// limits with probability ½, because arms are folded most there. Mimic joints follow their leaders
-/// (RobotModel::forwardKinematics()). Planar and floating joints, and prismatic ones without limits, have no bounded
+/// and for revolute joints without limits (two equal ones), or over more if joints that mimic them turn at another rate
+/// or slide. In every fourth state each limited joint is at one of its limits with probability ½, because arms are
+/// folded most there. Mimic joints follow their leaders (RobotModel::forwardKinematics()), also beyond limits of their
+/// own, as nothing keeps them there. Planar and floating joints, and prismatic ones without limits, have no bounded
 /// range and keep their position (see isUnbounded()).
 class JointSampler {
  public:

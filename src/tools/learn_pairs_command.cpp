@@ -141,7 +141,8 @@ void addLearnPairsCommand(CLI::App& app) {
       "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound. Never: farther "
       "apart than it in all of them, which is not a proof unless they are out of each other's reach; the file gives "
       "the number of states tested. States are drawn within the joints' limits, a quarter of them with joints at "
-      "their limits; mimic joints follow, continuous ones take a full revolution. The same seed gives the same file. "
+      "their limits; mimic joints follow, continuous ones take a full revolution, or more if what follows them needs "
+      "more. The same seed gives the same file. "
       "What a given SRDF holds is kept. Exit code 1: nothing is learned of some pairs, as a mesh is missing or a joint "
       "has no bounds.");
   command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();

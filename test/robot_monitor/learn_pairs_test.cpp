@@ -109,6 +109,31 @@ TEST(LearnPairs, WhatIsNearerThanTheBoundIsNotLeftOut) {
   EXPECT_EQ(namesOf(learn(urdf(-0.05), options).disabled, "Always"), Names{"a b"});
 }
 
+/// A joint that follows a continuous one need not be back where it was after a revolution of that.
+TEST(LearnPairs, JointsThatFollowContinuousOnesTakeAllTheirPositions) {
+  const auto follow = [](const std::string& multiplier) {
+    return "<mimic joint='to_a' multiplier='" + multiplier + "' offset='0.1'/>";
+  };
+  const auto fixed = [](const std::string& link, const std::string& origin) {
+    return sphere(link, 1.0) + joint("base", link, "fixed", "<origin " + origin + "/>");
+  };
+  std::string urdf = "<robot name='r'>" + sphere("base", 0.0) + sphere("a", 1.0) + joint("base", "a", "continuous");
+  urdf += sphere("slow", 1.0) + joint("base", "slow", "continuous", follow("0.25"));
+  urdf += sphere("elbow", 1.0) + joint("a", "elbow", "continuous", "<origin xyz='1 0 0'/>" + follow("1.5"));
+  urdf += sphere("screw", 1.0) + joint("base", "screw", "prismatic", limits(-0.5, 0.6) + follow("0.01"));
+  urdf += sphere("free", 1.0) + joint("base", "free", "prismatic", limits(0.0, 0.0) + follow("0.01"));
+  // Where the elbow is at 1 and 1.6 + pi rad, as after a revolution of a.
+  urdf += fixed("aside", "xyz='0.397 0.327 0'") + fixed("behind", "rpy='0 0 -2.5'") + fixed("above", "xyz='0 0 0.6'");
+  LearnOptions options = coarse();
+  options.states = 1000;
+  const LearnedPairs pairs = learn(urdf + "</robot>", options);
+  const Names touching = namesOf(pairs.touching);
+  EXPECT_EQ(touching.count("behind slow"), 1u);
+  EXPECT_EQ(touching.count("aside elbow"), 1u);
+  EXPECT_EQ(touching.count("above screw"), 1u);
+  EXPECT_EQ(namesOf(pairs.unknown).count("above free"), 1u);
+}
+
 TEST(LearnPairs, ThreadsDoNotMatterAndSeedsDo) {
   LearnOptions options = coarse();
   options.states = 300;
