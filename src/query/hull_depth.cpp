@@ -38,6 +38,7 @@ class HullSearch {
     } else if (const PartDepth side = depthIn(part_, point); !side.out.isZero()) {
       takeSide(side, point);
     }
+    if (!part_.solid) takeRound(*part_.field->primitive());
     takeMeans();
     return found_;
   }
@@ -66,6 +67,47 @@ class HullSearch {
                               : side.depth - side.out.dot(corners_[k] - point);
     }
     take(bounds);
+  }
+
+  /// By the plane that touches a round side where the hull comes nearest to its axis, or center. For a small hull the
+  /// plane at its center is as good.
+  void takeRound(const Primitive& primitive) {
+    constexpr double kSmall = 0.6;
+    const auto* ball = std::get_if<Sphere>(&primitive);
+    const auto* cylinder = std::get_if<Cylinder>(&primitive);
+    if (!ball && !cylinder) return;
+    const Vector3d across(1.0, 1.0, cylinder ? 0.0 : 1.0);
+    if (size_ < kSmall * center_.cwiseProduct(across).norm()) return;
+    const Vector3d nearest = nearestToOrigin(across);
+    const double distance = nearest.norm();
+    if (!(distance > 0.0)) return;
+    HullValues bounds;
+    for (int k = 0; k < 6; ++k)
+      bounds[k] = (ball ? ball->radius : cylinder->radius) - nearest.dot(corners_[k]) / distance;
+    take(bounds);
+  }
+
+  /// The point of the hull, with coordinates scaled by `across`, that is nearest to the origin, or one that is not much
+  /// farther: by Gilbert's algorithm, from the nearest point of an edge.
+  Vector3d nearestToOrigin(const Vector3d& across) const {
+    constexpr int kSteps = 4;
+    std::array<Vector3d, 6> points;
+    for (int k = 0; k < 6; ++k) points[k] = corners_[k].cwiseProduct(across);
+    Vector3d nearest = points[0];
+    const auto offer = [&](const Vector3d& from, const Vector3d& to) {
+      const Vector3d way = to - from;
+      const double length2 = way.squaredNorm();
+      const double s = length2 > 0.0 ? std::clamp(-from.dot(way) / length2, 0.0, 1.0) : 0.0;
+      const Vector3d point = from + s * way;
+      if (point.squaredNorm() < nearest.squaredNorm()) nearest = point;
+    };
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < i; ++j) offer(points[i], points[j]);
+    for (int step = 0; step < kSteps; ++step) {
+      const auto along = [&](const Vector3d& a, const Vector3d& b) { return nearest.dot(a) < nearest.dot(b); };
+      offer(nearest, *std::min_element(points.begin(), points.end(), along));
+    }
+    return nearest;
   }
 
   /// By a plane with normal n that has all of the nearby solid behind it, if it is one.

@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "common/shown_text.h"
 
 namespace sdf_ccd {
@@ -45,7 +47,7 @@ bool isPlacing(const std::string& text) {
 std::string ignoredPlacing(const XMLElement& origin) {
   for (const tinyxml2::XMLAttribute* attribute = origin.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string name = attribute->Name(), value = attribute->Value();
-    if (isPlacing(value) && name != "xyz" && name != "rpy") return shownText(name + "=\"" + value + "\"");
+    if (isPlacing(value) && name != "xyz" && name != "rpy") return shownText(fmt::format("{}=\"{}\"", name, value));
   }
   return {};
 }
