@@ -1,20 +1,25 @@
 #include "part_depth.h"
 
-#include <cmath>
 #include <optional>
 
 namespace sdf_ccd {
 namespace {
 
-/// Whether the point is inside, if the triangle nearest to it tells: it separates the outside from the inside, nothing
-/// lies between its nearest point and `p_G`, and these are connected by its normal.
+/// Whether the point is inside, if the triangle nearest to it tells: it separates the outside from the inside, and the
+/// point is before or behind its middle, so that nothing lies between. At an edge or a corner, other triangles as near
+/// may be on the other side.
 std::optional<bool> insideBy(const TriangleTree::ClosestPoint& nearest, const Solid& solid, const Vector3d& p_G) {
-  constexpr double kParallel = 1.0 - 1e-9;
-  if (nearest.triangle < 0 || !solid.separates()[nearest.triangle]) return std::nullopt;
-  const Vector3d normal = areaNormal(solid.tree().triangle(nearest.triangle).corners());
-  const double along = normal.dot(p_G - nearest.point);
-  const bool is_before = std::abs(along) > kParallel * normal.norm() * nearest.distance;
-  return is_before && nearest.distance > 1e-9 * (1.0 + p_G.norm()) ? std::optional(along < 0.0) : std::nullopt;
+  constexpr double kFromSides = 1e-4;  // of the distance: far more than the nearest point's rounding
+  const bool is_apart = nearest.distance > 1e-9 * (1.0 + p_G.norm());
+  if (!is_apart || nearest.triangle < 0 || !solid.separates()[nearest.triangle]) return std::nullopt;
+  const Corners& t = solid.tree().triangle(nearest.triangle).corners();
+  const Vector3d normal = areaNormal(t);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3d side = t[(k + 1) % 3] - t[k];
+    const double from_side = normal.cross(side).dot(nearest.point - t[k]);  // times the lengths of both
+    if (!(from_side > kFromSides * nearest.distance * normal.norm() * side.norm())) return std::nullopt;
+  }
+  return normal.dot(p_G - nearest.point) < 0.0;
 }
 
 }  // namespace

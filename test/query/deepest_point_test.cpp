@@ -113,6 +113,30 @@ TEST(PartDepth, HasTheSideThatTheWindingNumberTells) {
   }
 }
 
+/// Beside an edge at which two faces meet at a tiny angle, a point is before one of them and behind the other: which
+/// one the search for the nearest triangle returns says nothing. In whatever order the triangles are.
+TEST(PartDepth, BesideASharpEdgeIsOutside) {
+  constexpr double kLength = 0.2, kWidth = 0.1, kThickness = 4e-6;
+  TriangleMesh wedge;
+  wedge.vertices = {{0, -kWidth, 0},          {0, kWidth, 0},        {0, -kWidth, -kThickness},
+                    {0, kWidth, -kThickness}, {kLength, -kWidth, 0}, {kLength, kWidth, 0}};
+  wedge.triangles = {{0, 4, 5}, {0, 5, 1}, {2, 5, 4}, {2, 3, 5}, {0, 2, 4}, {1, 5, 3}, {0, 1, 3}, {0, 3, 2}};
+  for (std::size_t order = 0; order < wedge.triangles.size(); ++order) {
+    std::rotate(wedge.triangles.begin(), wedge.triangles.begin() + 1, wedge.triangles.end());
+    const MeshSolid solid(wedge);
+    const MeshTruth truth(wedge);
+    for (const double height : {-0.03, 0.03}) {
+      for (const double y : {0.0, 0.013, 0.05}) {
+        for (const double beyond : {-1e-5, 0.0, 1e-9, 1e-4}) {
+          const Vector3d p(kLength + beyond, y, height);
+          EXPECT_NEAR(depthIn(solid.parts.front(), p).depth, double(truth.depth(p.cast<Real>())), 1e-9)
+              << order << ": " << p.transpose();
+        }
+      }
+    }
+  }
+}
+
 /// The largest depth that random samples of the surface and the motion find, with a local search from the best of them.
 Real deepestSample(const TriangleMesh& surface, const MeshTruth& solid, const LongScrew& X_WF, const LongScrew& X_WP,
                    Random& random) {
