@@ -129,8 +129,11 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   for (const GeometryDescription& geometry : description.geometry) {
     if (std::holds_alternative<Primitive>(geometry.shape) || geometry.watertight_voxels) continue;
     PooledMesh& pooled = pool.find(geometry);
-    // For a mesh that is not closed, the boundary of the solid is the whole mesh, and closed with the caps.
-    if (!isClosed(pooled.mesh)) all.add(SolidSource(pooled.mesh, pooled.made).closed().openings().caps, geometry.X_BG);
+    if (isClosed(pooled.mesh)) continue;
+    // The boundary of the solid is the whole mesh, and closed with the caps, or where its faces are joined.
+    const ClosedSolid& solid = SolidSource(pooled.mesh, pooled.made).closed();
+    all.add(solid.openings().caps, geometry.X_BG);
+    made->deviation = std::max(made->deviation, solid.moved());
   }
   made->components = std::move(all.components);
   if (pool.exactDepths() && made->voxels.empty() && all.triangles.size() == open)

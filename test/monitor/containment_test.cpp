@@ -1,4 +1,6 @@
 // Bodies wholly inside others, whose surfaces are apart.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "body/body_triangles.h"
@@ -136,6 +138,32 @@ TEST(Containment, WhatFieldsFindInsideStaysInsideUntilItComesOut) {
     EXPECT_EQ(verdictOf(above, outside), Verdict::kClear);
     EXPECT_EQ(verdictOf(outside, inside), Verdict::kContact);
     EXPECT_EQ(verdictOf(inside, farther), Verdict::kContact);
+  }
+}
+
+/// Faces that are joined over a crack of some nanometres get no cap. What passes through it, a sheet without thickness,
+/// comes nearer to them than they are moved when joined: so it is neither inside nor outside for ever.
+TEST(Containment, WhatPassesThroughACrackIsNotedOnBothWays) {
+  constexpr double kHalf = 0.1, kCrack = 1e-8;
+  TriangleMesh cracked = binMesh(kHalf);
+  const double x = kHalf - kCrack;
+  addQuad(cracked, {Vector3d(-x, -x, kHalf), {x, -x, kHalf}, {x, x, kHalf}, {-x, x, kHalf}});
+  TriangleMesh sheet;
+  addQuad(sheet, {Vector3d(0, -0.01, -0.01), {0, 0.01, -0.01}, {0, 0.01, 0.01}, {0, -0.01, 0.01}});
+  const auto scene = build({body("box", meshShape(cracked)), body("sheet", meshShape(sheet))}, coarse());
+  ASSERT_FALSE(scene->bodies[0].triangles->closed);
+  const double slit = kHalf - 0.5 * kCrack;
+  std::vector<Vector3d> way = {{0, 0, 0},      {0.02, 0, 0},    {slit, 0, 0},   {slit, 0, 0.08},
+                               {slit, 0, 0.1}, {slit, 0, 0.12}, {slit, 0, 0.14}};
+  for (const Verdict at_end : {Verdict::kClear, Verdict::kContact}) {
+    Monitor monitor(scene, soft());
+    Verdict verdict = Verdict::kUncertain;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i)
+      verdict =
+          monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation(way[i]), translation(way[i + 1])}}), {})
+              .verdict;
+    EXPECT_EQ(verdict, at_end);
+    std::reverse(way.begin(), way.end());
   }
 }
 
