@@ -106,8 +106,7 @@ bool isWhole(const XMLElement& element, const std::string& name_in_lower_case) {
 std::string firstIgnored(const XMLElement& parent, bool is_read) {
   for (auto element = parent.FirstChildElement(); element; element = element->NextSiblingElement()) {
     const std::string name = element->Name(), lower = inLowerCase(name);
-    const bool is_visuals = lower == "geometry" && inLowerCase(parent.Name()) == "visual";
-    if (is_visuals || isExtension(lower)) continue;
+    if (isExtension(lower)) continue;
     // What else a link should not have, such as an origin of its own, moves no shape for any reader.
     const bool matters = is_read && (isOfShape(lower) || parent.Name() != std::string("link"));
     if (matters || (lower == "collision" && isWhole(*element, lower))) {
@@ -130,18 +129,18 @@ class IgnoredElements {
       lines_.push_back(whose + why);
   }
 
-  /// Adds links, joints and shapes below an element that the robot has besides its links and joints.
-  void addBelow(const XMLElement& unknown) {
+  /// Adds links, joints and shapes below an element of the robot that is no link.
+  void addBelow(const XMLElement& unknown, const std::string& whose) {
     const std::string name = inLowerCase(unknown.Name());
     if (isExtension(name) || name.rfind("xacro:", 0) == 0) return;
     for (auto element = unknown.FirstChildElement(); element; element = element->NextSiblingElement()) {
       const std::string kind = inLowerCase(element->Name());
       if (!isWhole(*element, kind)) {
-        addBelow(*element);
+        addBelow(*element, whose);
         continue;
       }
       const char* its_name = kind == "link" || kind == "joint" ? element->Attribute("name") : nullptr;
-      add(*element, its_name ? kind + " " + shownText(its_name) + ": " : "");
+      add(*element, its_name ? kind + " " + shownText(its_name) + ": " : whose);
     }
   }
 
@@ -165,10 +164,14 @@ std::vector<std::string> misplacedElements(const XMLElement& robot) {
     ignored.add(*element, "");
     const std::string kind = element->Name();
     const char* name = element->Attribute("name");
-    if (inLowerCase(kind) != "joint" && inLowerCase(kind) != "link") ignored.addBelow(*element);
-    if ((kind != "joint" && kind != "link") || !name) continue;
-    for (auto part = element->FirstChildElement(); part; part = part->NextSiblingElement())
-      if (!isOfShape(inLowerCase(part->Name()))) ignored.add(*part, kind + " " + shownText(name) + ": ");
+    const bool is_read = (kind == "joint" || kind == "link") && name;
+    const std::string whose = is_read ? kind + " " + shownText(name) + ": " : "";
+    if (inLowerCase(kind) != "link") ignored.addBelow(*element, whose);
+    for (auto part = is_read ? element->FirstChildElement() : nullptr; part; part = part->NextSiblingElement()) {
+      const std::string of_part = inLowerCase(part->Name());
+      const bool is_added = kind == "joint" && isWhole(*part, of_part);
+      if (!isOfShape(of_part) && !is_added) ignored.add(*part, whose);
+    }
   }
   return ignored.take();
 }

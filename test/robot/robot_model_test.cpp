@@ -420,6 +420,29 @@ TEST(RobotModel, LinksAndJointsThatTheParserDoesNotFindAreNamed) {
   EXPECT_TRUE(warnings("<xacro:macro name='m' params=''>" + link + "</xacro:macro>").empty());
 }
 
+/// Nobody reads what stands in a joint.
+TEST(RobotModel, ShapesAndLinksInJointsAreNamed) {
+  const auto warnings = [](const std::string& in_joint, const std::string& in_child) {
+    return RobotModel(
+               "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='fixed'><parent link='a'/>\n" +
+               in_joint + "<child link='b'>" + in_child + "</child></joint></robot>")
+        .warnings();
+  };
+  const std::string shape = "<collision><geometry><box size='1 1 1'/></geometry></collision>";
+  const std::string link = "<link name='c'>" + shape + "</link>";
+  EXPECT_TRUE(warnings("", "").empty());
+  EXPECT_EQ(warnings(shape, ""),
+            std::vector<std::string>{"joint j: line 2 of the URDF: <collision> in <joint> is ignored: "
+                                     "it belongs in <link>"});
+  EXPECT_EQ(
+      warnings("<axis xyz='1 0 0'>" + shape + "</axis>", ""),
+      std::vector<std::string>{"joint j: line 2 of the URDF: <collision> in <axis> is ignored: it belongs in <link>"});
+  EXPECT_EQ(warnings(link, ""), std::vector<std::string>{
+                                    "link c: line 2 of the URDF: <link> in <joint> is ignored: it belongs in <robot>"});
+  EXPECT_EQ(warnings("", "<x>" + link + "</x>"),
+            std::vector<std::string>{"link c: line 2 of the URDF: <link> in <x> is ignored: it belongs in <robot>"});
+}
+
 TEST(RobotModel, TheRobotNeedNotBeTheFirstElement) {
   const RobotModel robot(
       "<about><link name='c'><visual/></link></about>\n<robot name='r'><link name='a'/><axis/></robot>");
