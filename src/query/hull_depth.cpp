@@ -8,6 +8,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kNear = 2.5;  // radius of the triangles considered around a hull, relative to the hull's size
+constexpr double kParallel = 1.0 - 1e-9;
 
 class HullSearch {
  public:
@@ -23,8 +24,9 @@ class HullSearch {
     if (!part_.solid && depth.out.isZero()) return found_;
     takeSide(depth, center_);
     if (part_.solid && !isDone()) {
-      takePlane(normalOf(depth.triangle));
-      takePlane(depth.out);
+      const Vector3d normal = normalOf(depth.triangle);
+      takePlane(normal);
+      if (!(normal.dot(depth.out) > kParallel)) takePlane(depth.out);
     }
     if (isDone()) return found_;
     // Where that bound is highest, another triangle may be nearer and give a tighter bound.
@@ -32,9 +34,11 @@ class HullSearch {
     const Vector3d point = corners_[std::max_element(best.begin(), best.end()) - best.begin()];
     if (part_.solid) {
       PartDepth side;
-      side.triangle = part_.solid->tree().closestPoint(point).triangle;
-      takeSide(side, point);
-      takePlane(normalOf(side.triangle));
+      side.triangle = part_.solid->tree().closestPointNear(point, depth.triangle).triangle;
+      if (side.triangle != depth.triangle) {
+        takeSide(side, point);
+        takePlane(normalOf(side.triangle));
+      }
     } else if (const PartDepth side = depthIn(part_, point); !side.out.isZero()) {
       takeSide(side, point);
     }
