@@ -78,7 +78,8 @@ class Follower {
     queue.size = 0;
   }
 
-  /// Enqueues as many segments as fit, from index `first` on. @return the first one that is not enqueued.
+  /// Enqueues as many segments as fit, from index `first` on. @return the first one that is not enqueued; `count` if
+  /// one is refused, after which no result counts.
   int enqueue(const Segment* segments, int first, int count) {
     while (first < count && RayQueue::kCapacity - active() >= BoxEntry::kMaxSegments) {
       const int group = std::min(BoxEntry::kMaxSegments, count - first);
@@ -86,7 +87,10 @@ class Follower {
       if (entry.doubtful) {
         const auto within = [](const Segment& s) { return isWithinReach(s); };
         const int found = int(std::find_if_not(segments + first, segments + first + group, within) - segments);
-        if (found < first + group) refused_ = found;
+        if (found < first + group) {
+          refused_ = found;
+          return count;
+        }
       }
       dispatch(entry, segments, first, group);
       first += group;
