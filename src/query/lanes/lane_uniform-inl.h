@@ -38,7 +38,7 @@ struct NearestSample {
     for (int k = 0; k < 3; ++k) {
       const VI low = hn::And(lanes.cell[k], whole(-LaneBox::kUnits));
       const VF from_low = hn::Sub(lanes.at(k), hn::ConvertTo(f, low));
-      const VI nearest = hn::ConvertTo(n, hn::MulAdd(from_low, real(1.0F / kCell), real(0.5F)));
+      const VI nearest = truncated(hn::MulAdd(from_low, real(1.0F / kCell), real(0.5F)));
       x[k] = hn::Min(hn::Max(nearest, hn::Zero(n)), whole(GridShape::kBrick));
       center[k] = hn::ConvertTo(f, hn::Add(low, hn::ShiftLeft<UniformLanes::kLogCell>(x[k])));
     }

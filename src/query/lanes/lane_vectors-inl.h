@@ -32,6 +32,14 @@ inline VF real(float v) {
 inline VI whole(std::int32_t v) {
   return hn::Set(n, v);
 }
+/// Rounded towards zero; some number for NaN, which the scalar code must not cast.
+HWY_INLINE VI truncated(VF v) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::ConvertTo(n, hn::IfThenElse(hn::IsNaN(v), hn::Zero(f), v));
+#else
+  return hn::ConvertTo(n, v);
+#endif
+}
 inline MF asReal(MI m) {
   return hn::RebindMask(f, m);
 }
@@ -174,8 +182,7 @@ inline void setEmptySphere(const LaneBox& g, VI word, Blocks& b) {
 HWY_INLINE void findCells(const LaneBox& g, Lanes& lanes) {
   for (int k = 0; k < 3; ++k) {
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
-    // Rounded towards zero; negative values are clamped.
-    lanes.cell[k] = hn::Min(hn::Max(hn::ConvertTo(n, lanes.at(k)), hn::Zero(n)), last);
+    lanes.cell[k] = hn::Min(hn::Max(truncated(lanes.at(k)), hn::Zero(n)), last);
   }
 }
 
@@ -230,7 +237,7 @@ HWY_INLINE MI advance(const LaneBox& g, const Exits& e, MF jump, VF t, MI moving
     const VI high = hn::Add(e.low[k], e.side);
     const VI last = whole(g.top_size[k] * LaneBox::kUnits - 1);
     // Rounded towards zero; negative values are clamped.
-    const VI at = hn::ConvertTo(n, hn::MulAdd(lanes.d[k], t, lanes.o[k]));
+    const VI at = truncated(hn::MulAdd(lanes.d[k], t, lanes.o[k]));
     const VI within = hn::Min(hn::Max(at, e.low[k]), hn::Sub(high, whole(1)));
     const MF forward = hn::Gt(lanes.d[k], real(0.0F));
     const VI beyond = hn::IfThenElse(asWhole(forward), high, hn::Sub(e.low[k], whole(1)));
