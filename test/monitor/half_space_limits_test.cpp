@@ -86,7 +86,8 @@ TEST(HalfSpaceLimits, NormalsAreNormalised) {
 
 /// What is below the surface all the time is in contact all the time, though its lowest point changes.
 TEST(HalfSpaceLimits, BelowIsBelowThroughout) {
-  Fall ball(Primitive(Sphere{0.1}), Isometry3d::Identity()), cylinder(Primitive(Cylinder{0.1, 0.05}), {});
+  Fall ball(Primitive(Sphere{0.1}), Isometry3d::Identity()),
+      cylinder(Primitive(Cylinder{0.1, 0.05}), Isometry3d::Identity());
   const auto isWhole = [](const PairResult& result) {
     EXPECT_EQ(result.verdict, Verdict::kContact);
     return result.intervals.size() == 1 && result.intervals[0].enter == 0.0 && result.intervals[0].exit >= 0.1;

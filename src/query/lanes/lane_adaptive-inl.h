@@ -95,6 +95,7 @@ inline void fetchLeaves(const AdaptiveLanes& g, const RayQueue& queue, Fetched& 
   std::int32_t* pair = fetched.pairs[0].data();
   for (int i = 0, size = queue.size; i < size; ++i) {
     const LeafWord* leaf = leaves[index[i] >= RayQueue::kSplit] + (index[i] & (RayQueue::kSplit - 1));
+    // NOLINTNEXTLINE(clang-analyzer-core.NonNullParamChecker): there are splits where an index says so
     std::memcpy(pair + 2 * i, leaf, sizeof(LeafWord));
   }
 }
