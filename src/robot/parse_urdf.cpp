@@ -94,6 +94,7 @@ void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
     throw std::runtime_error("joint " + joint.name + ": its axis is 0 0 0");
   }
   if (joint.type == urdf::Joint::UNKNOWN) throw std::runtime_error("joint " + joint.name + ": unknown type");
+  constexpr std::size_t kMostLeaders = 100;  // all positions are computed through them, one after another
   std::set<std::string> seen = {joint.name};
   for (const urdf::Joint* follower = &joint; follower->mimic;) {
     const std::string& leader = follower->mimic->joint_name;
@@ -102,6 +103,9 @@ void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
       throw std::runtime_error("joint " + follower->name + " mimics " + leader + ", which does not exist");
     }
     if (!seen.insert(leader).second) throw std::runtime_error("joint " + joint.name + " mimics itself");
+    if (seen.size() > kMostLeaders)
+      throw std::runtime_error("joint " + joint.name + " mimics a joint that mimics another, and so on, more than " +
+                               std::to_string(kMostLeaders) + " times");
     follower = found->second.get();
   }
 }

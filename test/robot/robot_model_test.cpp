@@ -287,6 +287,22 @@ TEST(RobotModel, JointsWithoutKinematicsAreRefused) {
   EXPECT_NE(failure(joint("<mimic joint='j'/>")).find("mimics itself"), std::string::npos);
 }
 
+/// Each position is computed along the whole chain: thousands would take seconds a state.
+TEST(RobotModel, LongChainsOfMimicJointsAreRefused) {
+  const auto chain = [](int length) {
+    std::string urdf = "<robot name='r'><link name='l0'/>";
+    for (int i = 1; i <= length; ++i) {
+      const std::string number = std::to_string(i), before = std::to_string(i - 1);
+      urdf += "<link name='l" + number + "'/><joint name='j" + number + "' type='continuous'><parent link='l" + before +
+              "'/><child link='l" + number + "'/>" + (i > 1 ? "<mimic joint='j" + before + "'/>" : "") + "</joint>";
+    }
+    return urdf + "</robot>";
+  };
+  EXPECT_NO_THROW(RobotModel(chain(100)));
+  EXPECT_NE(failure(chain(102)).find("mimics a joint that mimics another, and so on, more than 100 times"),
+            std::string::npos);
+}
+
 TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
   const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
     return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
