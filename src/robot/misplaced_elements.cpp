@@ -1,6 +1,7 @@
 #include "misplaced_elements.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <set>
@@ -42,12 +43,14 @@ bool isPlacing(const std::string& text) {
          text.find_first_not_of("0123456789+-.eE, \t\r\n") == std::string::npos;
 }
 
-/// The first attribute of an <origin> that urdfdom does not read though it places something, as text; empty if there
-/// is none.
-std::string ignoredPlacing(const XMLElement& origin) {
-  for (const tinyxml2::XMLAttribute* attribute = origin.FirstAttribute(); attribute; attribute = attribute->Next()) {
+/// The first attribute of an element that urdfdom does not read though it places or scales something, as text; empty if
+/// there is none.
+std::string ignoredAttribute(const XMLElement& element, const std::array<std::string, 2>& known) {
+  for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string name = attribute->Name(), value = attribute->Value();
-    if (isPlacing(value) && name != "xyz" && name != "rpy") return shownText(fmt::format("{}=\"{}\"", name, value));
+    if (!isPlacing(value) || name == known[0] || name == known[1]) continue;
+    return "has " + shownText(fmt::format("{}=\"{}\"", name, value)) + ", which is ignored: its attributes are " +
+           known[0] + " and " + known[1];
   }
   return {};
 }
@@ -73,13 +76,15 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
     for (const std::string& place : known->second) places += (places.empty() ? "<" : " or <") + place + ">";
     return line + "in <" + shownText(parent) + "> is ignored: it belongs in " + places;
   }
+  const std::string scaling = name == "mesh" ? ignoredAttribute(element, {"filename", "scale"}) : "";
+  if (!scaling.empty()) return line + scaling;
   if (is_shape) return {};  // the parser reports it, if it cannot be read
   if (written != name) return line + "is ignored: it must be <" + name + ">";
   const bool can_be_many = name == "link" || name == "joint" || name == "collision";
   if (!can_be_many && element.PreviousSiblingElement(name.c_str()))
     return line + "is ignored: its <" + parent + "> has one already";
-  const std::string placing = name == "origin" ? ignoredPlacing(element) : "";
-  return placing.empty() ? "" : line + "has " + placing + ", which is ignored: its attributes are xyz and rpy";
+  const std::string placing = name == "origin" ? ignoredAttribute(element, {"xyz", "rpy"}) : "";
+  return placing.empty() ? "" : line + placing;
 }
 
 /// Whether an element with this name holds a shape, or is one.

@@ -186,6 +186,8 @@ TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
        "<origin> has rotation=\"0 0 1.5\", which is ignored: its attributes are xyz and rpy"},
       {"shouted", "<collision><origin XYZ='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
        "<origin> has XYZ=\"1 0 0\", which is ignored: its attributes are xyz and rpy"},
+      {"enlarged", "<collision><geometry><mesh filename='part.off' Scale='2 2 2'/></geometry></collision>",
+       "<mesh> has Scale=\"2 2 2\", which is ignored: its attributes are filename and scale"},
       {"annotated", "<collision><origin xyz='1 0 0' from='CAD 2'/><geometry>" + sphere + "</geometry></collision>", ""},
       {"unmoved",
        "<collision><pose>0 0 0 -0.0 0 0</pose><origin xyz='1 0 0' rotation='0 0 0'/><geometry>" + sphere +
