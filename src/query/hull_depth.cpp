@@ -1,8 +1,9 @@
 #include "hull_depth.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <variant>
+
+#include "geometry/triangle.h"
 
 namespace sdf_ccd {
 namespace {
@@ -99,10 +100,7 @@ class HullSearch {
     for (int k = 0; k < 6; ++k) points[k] = corners_[k].cwiseProduct(across);
     Vector3d nearest = points[0];
     const auto offer = [&](const Vector3d& from, const Vector3d& to) {
-      const Vector3d way = to - from;
-      const double length2 = way.squaredNorm();
-      const double s = length2 > 0.0 ? std::clamp(-from.dot(way) / length2, 0.0, 1.0) : 0.0;
-      const Vector3d point = from + s * way;
+      const Vector3d point = closestOnSegment(from, to, Vector3d::Zero());
       if (point.squaredNorm() < nearest.squaredNorm()) nearest = point;
     };
     for (int i = 0; i < 6; ++i)

@@ -43,14 +43,19 @@ bool isPlacing(const std::string& text) {
          text.find_first_not_of("0123456789+-.eE, \t\r\n") == std::string::npos;
 }
 
-/// The first attribute of an element that urdfdom does not read though it places or scales something, as text; empty if
-/// there is none.
-std::string ignoredAttribute(const XMLElement& element, const std::array<std::string, 2>& known) {
+/// What an element says in an attribute that urdfdom does not read though it places or scales something; empty if there
+/// is none.
+std::string ignoredAttribute(const XMLElement& element, const std::string& name_in_lower_case) {
+  static const std::map<std::string, std::array<std::string, 2>> attributes = {{"mesh", {"filename", "scale"}},
+                                                                               {"origin", {"xyz", "rpy"}}};
+  const auto read = attributes.find(name_in_lower_case);
+  if (read == attributes.end()) return {};
+  const auto& [first, second] = read->second;
   for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string name = attribute->Name(), value = attribute->Value();
-    if (!isPlacing(value) || name == known[0] || name == known[1]) continue;
-    return "has " + shownText(fmt::format("{}=\"{}\"", name, value)) + ", which is ignored: its attributes are " +
-           known[0] + " and " + known[1];
+    if (!isPlacing(value) || name == first || name == second) continue;
+    const std::string written = shownText(fmt::format("{}=\"{}\"", name, value));
+    return fmt::format("has {}, which is ignored: its attributes are {} and {}", written, first, second);
   }
   return {};
 }
@@ -76,15 +81,14 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
     for (const std::string& place : known->second) places += (places.empty() ? "<" : " or <") + place + ">";
     return line + "in <" + shownText(parent) + "> is ignored: it belongs in " + places;
   }
-  const std::string scaling = name == "mesh" ? ignoredAttribute(element, {"filename", "scale"}) : "";
-  if (!scaling.empty()) return line + scaling;
-  if (is_shape) return {};  // the parser reports it, if it cannot be read
-  if (written != name) return line + "is ignored: it must be <" + name + ">";
-  const bool can_be_many = name == "link" || name == "joint" || name == "collision";
-  if (!can_be_many && element.PreviousSiblingElement(name.c_str()))
-    return line + "is ignored: its <" + parent + "> has one already";
-  const std::string placing = name == "origin" ? ignoredAttribute(element, {"xyz", "rpy"}) : "";
-  return placing.empty() ? "" : line + placing;
+  if (!is_shape) {  // the parser reports shapes that it cannot read
+    if (written != name) return line + "is ignored: it must be <" + name + ">";
+    const bool can_be_many = name == "link" || name == "joint" || name == "collision";
+    if (!can_be_many && element.PreviousSiblingElement(name.c_str()))
+      return line + "is ignored: its <" + parent + "> has one already";
+  }
+  const std::string attribute = ignoredAttribute(element, name);
+  return attribute.empty() ? "" : line + attribute;
 }
 
 /// Whether an element with this name holds a shape, or is one.

@@ -107,13 +107,19 @@ TEST(Containment, WhatGoesInStaysIn) {
   }
 }
 
+/// A box whose lid (z) is smaller on all sides by the width of a crack.
+TriangleMesh crackedBox(double half, double crack) {
+  TriangleMesh box = binMesh(half);
+  const double x = half - crack;
+  addQuad(box, {Vector3d(-x, -x, half), {x, -x, half}, {x, x, half}, {-x, x, half}});
+  return box;
+}
+
 /// Through a crack as wide as this one nothing can enter, but triangles do not know that: fields prove that the box is
 /// solid. A bead in it is in contact until it comes out, or is elsewhere in the next cycle.
 TEST(Containment, WhatFieldsFindInsideStaysInsideUntilItComesOut) {
   constexpr double kHalf = 0.1, kCrack = 2e-5;
-  TriangleMesh cracked = binMesh(kHalf);
-  const double x = kHalf - kCrack;
-  addQuad(cracked, {Vector3d(-x, -x, kHalf), {x, -x, kHalf}, {x, x, kHalf}, {-x, x, kHalf}});
+  const TriangleMesh cracked = crackedBox(kHalf, kCrack);
   const auto scene =
       build({body("box", meshShape(cracked)), body("bead", meshShape(boxMesh({0.003, 0.003, 0.003})))}, coarse());
   ASSERT_TRUE(scene->bodies[0].doubtful);
@@ -145,9 +151,7 @@ TEST(Containment, WhatFieldsFindInsideStaysInsideUntilItComesOut) {
 /// comes nearer to them than they are moved when joined: so it is neither inside nor outside for ever.
 TEST(Containment, WhatPassesThroughACrackIsNotedOnBothWays) {
   constexpr double kHalf = 0.1, kCrack = 1e-8;
-  TriangleMesh cracked = binMesh(kHalf);
-  const double x = kHalf - kCrack;
-  addQuad(cracked, {Vector3d(-x, -x, kHalf), {x, -x, kHalf}, {x, x, kHalf}, {-x, x, kHalf}});
+  const TriangleMesh cracked = crackedBox(kHalf, kCrack);
   TriangleMesh sheet;
   addQuad(sheet, {Vector3d(0, -0.01, -0.01), {0, 0.01, -0.01}, {0, 0.01, 0.01}, {0, -0.01, 0.01}});
   const auto scene = build({body("box", meshShape(cracked)), body("sheet", meshShape(sheet))}, coarse());
