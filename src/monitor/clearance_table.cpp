@@ -15,6 +15,7 @@ using namespace lanes;
 
 constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes without a pair
 constexpr float kUpwards = 1.0F + 0x1p-20F;
+constexpr float kSoon = 2.0F;      // cycles like the last one in which SkippedPairs::soon becomes due
 constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
 using Vector = LaneVector<Floats>;
@@ -23,19 +24,25 @@ SDF_CCD_INLINE Floats norm(const Vector& v) {
   return squareRoot(v.dot(v));
 }
 
-/// The rows of one body, broadcast to all lanes, or of consecutive bodies.
-struct Rows {
+/// The rows of one body, in all lanes.
+class OneBody {
+ public:
+  SDF_CCD_INLINE void load(const float* first) {
+    for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row) rows_[row] = Floats{} + first[row * kTwistLanes];
+  }
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return rows_[static_cast<int>(row) + offset]; }
+
+ private:
+  Floats rows_[static_cast<int>(TwistRow::kCount)];
+};
+
+/// The rows of consecutive bodies.
+struct BodiesInRow {
   const float* first;
 
-  SDF_CCD_INLINE const float* at(TwistRow row, int offset) const {
-    return first + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes;
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const {
+    return load(first + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes);
   }
-};
-struct OneBody : Rows {
-  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return Floats{} + *at(row, offset); }
-};
-struct BodiesInRow : Rows {
-  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return load(at(row, offset)); }
 };
 
 template <class Get>
@@ -93,25 +100,29 @@ struct ScanArrays {
 
 SDF_CCD_LANES
 void addTravel(const ScanArrays& s) {
+  OneBody a;
   for (std::size_t i = 0; i < s.count; ++i) {
-    const OneBody a{{s.rows + s.blocks[2 * i]}};
-    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1]}};
+    if (i == 0 || s.blocks[2 * i] != s.blocks[2 * i - 2]) a.load(s.rows + s.blocks[2 * i]);
+    const BodiesInRow b{s.rows + s.blocks[2 * i + 1]};
     const std::size_t at = i * kTwistLanes;
     store((load(s.spent + at) + travelOf(a, b)) * kUpwards, s.spent + at);
   }
 }
 
 /// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
-/// and its slot.
+/// and its slot, and the slot of the pair that will be due soon.
 SDF_CCD_LANES
 SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
   Floats best = Floats{} - 1.0F;
   Ints best_block = {};
+  Floats most_over = {};
+  Ints over_block = {};
   const Floats zero = {};
   std::size_t found = 0;
+  OneBody a;
   for (std::size_t i = 0; i < s.count; ++i) {
-    const OneBody a{{s.rows + s.blocks[2 * i]}};
-    const BodiesInRow b{{s.rows + s.blocks[2 * i + 1]}};
+    if (i == 0 || s.blocks[2 * i] != s.blocks[2 * i - 2]) a.load(s.rows + s.blocks[2 * i]);
+    const BodiesInRow b{s.rows + s.blocks[2 * i + 1]};
     const std::size_t at = i * kTwistLanes;
     const Floats budget = load(s.budget + at);
     Floats travel = travelOf(a, b);
@@ -127,12 +138,22 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const Ints is_more = bound > best;
     best = is_more ? bound : best;
     best_block = is_more ? Ints{} + static_cast<std::int32_t>(i) : best_block;
+    const Floats over = is_quiet ? kSoon * travel - (left - error) : zero;
+    const Ints is_over = over > most_over;
+    most_over = is_over ? over : most_over;
+    over_block = is_over ? Ints{} + static_cast<std::int32_t>(i) : over_block;
     const Pairs quiet = Pairs(is_quiet);  // a lane is −1 if true
     due_blocks[found] = i;
     found += (quiet[0] & quiet[1] & quiet[2] & quiet[3]) != -1;
   }
   *due_count = found;
   SkippedPairs quiet;
+  float most = 0.0F;
+  for (int lane = 0; lane < kFloatWidth; ++lane) {
+    if (!(most_over[lane] > most)) continue;
+    most = most_over[lane];
+    quiet.soon = over_block[lane] * kFloatWidth + lane;
+  }
   for (int lane = 0; lane < kFloatWidth; ++lane) {
     if (!(best[lane] > quiet.error)) continue;
     quiet.error = best[lane];
@@ -150,18 +171,18 @@ float roundedDown(double x) {
 
 ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(pairs.size(), 0.0) {
   constexpr auto kLanes = static_cast<int>(kTwistLanes);
-  std::map<std::pair<int, int>, std::size_t> known;  // block by body and first body in a row
+  const auto keyOf = [](const PlannedPair& pair) { return std::pair(pair.body_a, pair.body_b / kLanes); };
+  std::map<std::pair<int, int>, std::size_t> known;  // block by body and row of bodies
+  for (const PlannedPair& pair : pairs) known.emplace(keyOf(pair), 0);
+  for (auto& [key, block] : known) {
+    const auto rowsOf = [](int body) { return static_cast<std::int32_t>(twistOffset(static_cast<std::size_t>(body))); };
+    block = blocks_.size();
+    blocks_.push_back({rowsOf(key.first), rowsOf(key.second * kLanes)});
+  }
+  pairs_.assign(kTwistLanes * blocks_.size(), -1);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const int a = pairs[i].body_a, b = pairs[i].body_b, first_b = b / kLanes * kLanes;
-    const auto [block, is_new] = known.emplace(std::pair(a, first_b), blocks_.size());
-    if (is_new) {
-      const auto rowsOf = [](int body) {
-        return static_cast<std::int32_t>(twistOffset(static_cast<std::size_t>(body)));
-      };
-      blocks_.push_back({rowsOf(a), rowsOf(first_b)});
-      pairs_.resize(kTwistLanes * blocks_.size(), -1);
-    }
-    const std::size_t slot = kTwistLanes * block->second + static_cast<std::size_t>(b - first_b);
+    const std::size_t slot =
+        kTwistLanes * known.at(keyOf(pairs[i])) + static_cast<std::size_t>(pairs[i].body_b % kLanes);
     if (pairs_[slot] >= 0) throw std::invalid_argument("clearance table: a pair of bodies occurs twice");
     pairs_[slot] = static_cast<std::int32_t>(i);
     slots_.push_back(static_cast<std::int32_t>(slot));
@@ -211,6 +232,7 @@ SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePai
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;
   if (quiet.pair >= 0) quiet.pair = pairs_[static_cast<std::size_t>(quiet.pair)];
+  if (quiet.soon >= 0) quiet.soon = pairs_[static_cast<std::size_t>(quiet.soon)];
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t slot = kTwistLanes * due_blocks_[k]; slot < kTwistLanes * (due_blocks_[k] + 1); ++slot) {
       if (pairs_[slot] < 0 || slack_[slot] > 0.0F) continue;

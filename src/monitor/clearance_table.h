@@ -19,6 +19,7 @@ struct DuePair {
 struct SkippedPairs {
   float error = -1.0F;  ///< their largest error bound [m]; negative if there are none
   int pair = -1;        ///< the pair with that bound
+  int soon = -1;        ///< a pair that two more cycles like this one would make due, the one by the largest distance
 };
 
 /// Stores for every pair how far its bodies may still move relative to each other before it must be tested. This budget

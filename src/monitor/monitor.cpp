@@ -97,6 +97,7 @@ const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequ
     takeSpans(motion);
     takeSkipped(request);
     checkDue(motion, request, start);
+    measureSoon(motion);
     schedule->settle(motion, checkers);
   } catch (...) {
     forget();
@@ -172,6 +173,19 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   if (due.size() == 1 || (due.size() <= kFew && near <= 1)) return checkRange(0, due.size());
   // Each pair has its own state, so its result does not depend on the thread.
   parallelRanges(std::size_t{0}, due.size(), checkRange);
+}
+
+/// Uses a cycle without a due pair to measure one that would be due soon: otherwise many may be due at the same time.
+void Monitor::Impl::measureSoon(const CycleMotion& motion) {
+  const int pair = schedule->soon();
+  if (pair < 0 || !schedule->due().empty()) return;
+  const auto i = static_cast<std::size_t>(pair);
+  queue.assign(1, {0.0F, pair});
+  bodies->take(motion, result.pairs, queue);
+  std::unique_ptr<PairMemory> taken = memory->take();
+  const std::optional<double> clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
+  memory->giveBack(std::move(taken));
+  if (clearance) schedule->raise(pair, *clearance);
 }
 
 /// All threads take pairs from one queue, so that the most urgent pairs are done first.

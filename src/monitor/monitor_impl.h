@@ -24,6 +24,7 @@ struct Monitor::Impl {
   void takeSkipped(const CycleRequest& request);
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
+  void measureSoon(const CycleMotion& motion);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
   void summarise(std::size_t end);
   ErrorBound errorOf(int pair) const;
@@ -39,7 +40,7 @@ struct Monitor::Impl {
   MotionShape shape;
   CycleResult result;
   std::vector<int> last_due;                // pairs
-  std::vector<DuePair> queue;               // due pairs, those that have waited longest first
+  std::vector<DuePair> queue;               // pairs to test, those that have waited longest first
   std::vector<std::uint32_t> waited;        // per pair: number of consecutive cycles in which it was postponed
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;

@@ -329,34 +329,45 @@ void PairChecker::setSurfaceError(double open_within, const ErrorBound& error, P
 
 /// Whether the triangles prove that the bodies stay apart. @param answer  set if not.
 bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
-  const RelativeMotion& motion = surfaces_->motion();
-  double clearance = surfaces_->ballClearance(motion.end());
-  if (surfaces_->ballClearance(motion.start()) - travel_ > std::max(motion_error_, surfaces_->size())) {
+  answer = surfaces_->decide(motion_error_, memory_->separation);
+  if (answer.state != SeparationState::kApart) {
+    inside_.reset();
+    return false;
+  }
+  if (answer.far) {
     outside_ = true;
     inside_.reset();
-  } else {
-    answer = surfaces_->decide(motion_error_, memory_->separation);
-    if (answer.state != SeparationState::kApart) {
-      inside_.reset();
-      return false;
-    }
-    clearance = std::max(clearance, answer.clearance);
-    if (!outside_ && !inside_) {
-      // That takes many rays in a mesh whose inside is doubtful, and hardly depends on small displacements.
-      constexpr double kSmall = 0.1;
-      if (untold_ && motion.jumpFrom(untold_->X_FP) < kSmall * surfaces_->size()) return false;
-      const int attempt = untold_ ? untold_->attempts : 0;
-      const SurfacePair::Containment found = surfaces_->containment(motion.end(), attempt);
-      outside_ = found.excluded;
-      inside_ = found.inside;
-      untold_.reset();
-      if (!outside_ && !inside_) untold_ = {motion.end(), attempt + 1};
-    }
-    if (inside_) answer.crossing = surfaces_->contactInside(*inside_);
-    if (!outside_) return false;
+  } else if (!outside_ && !inside_) {
+    findContainment();
   }
-  setClear(clearance, result);
+  if (inside_) answer.crossing = surfaces_->contactInside(*inside_);
+  if (!outside_) return false;
+  setClear(answer.clearance, result);
   return true;
+}
+
+/// Sets whether one body is inside the other, which takes many rays in a mesh whose inside is doubtful, and hardly
+/// depends on small displacements. The surfaces must be apart.
+void PairChecker::findContainment() {
+  constexpr double kSmall = 0.1;
+  const RelativeMotion& motion = surfaces_->motion();
+  if (untold_ && motion.jumpFrom(untold_->X_FP) < kSmall * surfaces_->size()) return;
+  const int attempt = untold_ ? untold_->attempts : 0;
+  const SurfacePair::Containment found = surfaces_->containment(motion.end(), attempt);
+  outside_ = found.excluded;
+  inside_ = found.inside;
+  untold_.reset();
+  if (!outside_ && !inside_) untold_ = {motion.end(), attempt + 1};
+}
+
+std::optional<double> PairChecker::measure(const CycleMotion& motion, const SweptBodies& bodies,
+                                           const WaypointSpan& span, PairMemory& memory) {
+  if (!surfaces_ || !bodies.problem(pair_.body_a).empty() || !bodies.problem(pair_.body_b).empty()) return {};
+  surfaces_->setMotion(bodies, span, memory.bounds);
+  const double error = surfaces_->motion().poseError() + givenError(motion, surfaces_->motion());
+  const SurfacePair::Answer answer = surfaces_->decide(error, memory.separation);
+  if (answer.state != SeparationState::kApart) return {};
+  return answer.clearance;
 }
 
 /// @param by_surfaces  what triangles tell, if they decide the pair.

@@ -40,6 +40,11 @@ class PairChecker {
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
                 PairResult& result);
 
+  /// Measures the distance of a pair that is known to be clear over the whole span. What is stored stays.
+  /// @return a lower bound at the span's end [m]; empty if none is found.
+  std::optional<double> measure(const CycleMotion& motion, const SweptBodies& bodies, const WaypointSpan& span,
+                                PairMemory& memory);
+
   /// Discards the clearance and all other data of earlier cycles.
   void forget() {
     forgetClearance();
@@ -97,6 +102,7 @@ class PairChecker {
   bool isCertain(const PairResult& result) const;
   bool isDeep(const PairResult& result) const;
   void keepInside(const PairResult& result);
+  void findContainment();
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const;
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;

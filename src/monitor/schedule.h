@@ -30,6 +30,15 @@ class Schedule {
   /// The pair with the largest error bound among those that are not due; −1 if all are due.
   int worstSkipped() const { return quiet_.pair; }
 
+  /// A pair that is not due but will be soon, if the motion continues; −1 if there is none.
+  int soon() const { return quiet_.soon; }
+
+  /// Raises the clearance of a pair that is not due, if a larger one has been measured. @param clearance  lower bound
+  /// of the distance at the cycle's end [m].
+  void raise(int pair, double clearance) {
+    if (clearance > table_.clearance(pair)) table_.set(pair, clearance);
+  }
+
   /// For a pair that is not due: upper bound of the motion's part of its error, and lower bound of its distance at the
   /// cycle's end [m].
   double motionError(int pair) const;

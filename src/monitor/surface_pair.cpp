@@ -87,7 +87,16 @@ double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
 }
 
 SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& memory) {
-  const double margin = motion_error + deviation_;
+  const double at_end = ballClearance(motion_.end());
+  if (ballClearance(motion_.start()) - motion_.travel() > std::max(motion_error, size()))
+    return {SeparationState::kApart, at_end, true, {}, kInfinity};
+  Answer answer = decideNear(motion_error + deviation_, memory);
+  answer.clearance = std::max(answer.clearance, at_end);
+  return answer;
+}
+
+/// The same by the triangles. @param margin  the motion's error and the deviation of the triangles [m].
+SurfacePair::Answer SurfacePair::decideNear(double margin, SeparationMemory& memory) {
   if (plane_) {
     Answer answer = decideBy(false, margin, memory);
     if (answer.crossing && isBelowThroughout(margin, memory)) {

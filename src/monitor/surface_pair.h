@@ -51,6 +51,7 @@ class SurfacePair {
   struct Answer {
     SeparationState state = SeparationState::kOpen;
     double clearance = 0.0;                ///< if apart: lower bound of the distance at the motion's end [m]
+    bool far = false;                      ///< if apart: even the bodies' balls are
     std::optional<ContactPoint> crossing;  ///< if crossing
     /// If open: the distance falls to at most all errors plus this [m]; infinite if that is not known. With a
     /// half-space it is known, and no point is deeper than that either.
@@ -98,6 +99,7 @@ class SurfacePair {
   /// The surfaces, with the caps that close openings or without.
   Separation test(bool closed, const TwoBodyMotion& motion, const SeparationOptions& options, SeparationMemory& memory);
   Separation testCloser(bool closed, const TwoBodyMotion& motion, SeparationOptions options, SeparationMemory& memory);
+  Answer decideNear(double margin, SeparationMemory& memory);
   Answer decideBy(bool closed, double margin, SeparationMemory& memory);
   bool isBelowThroughout(double margin, SeparationMemory& memory);
   bool isBelow(const TwoBodyMotion& motion, double start, double end, double margin, SeparationMemory& memory);

@@ -13,7 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kCut = 0.6;            // of the smallest known gap: pairs with a larger gap are not refined
+constexpr double kCut = 0.4;            // of the smallest known gap: pairs with a larger gap are not refined
 constexpr std::size_t kManyNear = 192;  // with more near pairs the interval is halved and all boxes are tested again
 constexpr int kLongSearch = 64;         // after so many tests of triangles, boxes are tested more closely
 constexpr double kManyBends = 0.25;     // of the gap: boxes lose more to the chords than triangles

@@ -96,7 +96,7 @@ struct SeparationMemory {
 ///
 /// The proof of kCrossing: an edge pierces a triangle at a time (see crossingPoint()), or rounded triangles overlap.
 ///
-/// A branch is pruned if its gap exceeds 0.6 times that of the nearest known triangles. Before the descent, one plane
+/// A branch is pruned if its gap exceeds 0.4 times that of the nearest known triangles. Before the descent, one plane
 /// between the nearest triangles of the last query is tested, which may separate the surfaces as a whole; in a long
 /// search, also one between their convex hulls (hull_direction.h). The interval is also halved where chords deviate
 /// from the paths by much, compared with the nearest known triangles.

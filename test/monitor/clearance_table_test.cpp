@@ -277,6 +277,42 @@ TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
   EXPECT_EQ(dueAfter(vague), 0u);
 }
 
+/// Of three pairs whose budgets last for one more step, for two, and for more, the first one is named. That of two
+/// bodies at rest lasts for ever, however small it is.
+TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
+  constexpr double kStep = 0.01;
+  Random random(5);
+  Scene scene;
+  for (int i = 0; i < 4; ++i) {
+    Body body;
+    body.ball.radius = 0.1;
+    scene.bodies.push_back(body);
+  }
+  scene.pairs = {{0, 1, true, true}, {0, 2, true, true}, {0, 3, true, true}, {1, 2, true, true}};
+  const std::vector<char> whole(4, 1);
+  const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 0.0, false}, 4, 1, random));
+  const auto soonWith = [&](double first, double second, double third) {
+    BodyTwists bodies(scene);
+    ClearanceTable table(scene.pairs);
+    std::vector<DuePair> due;
+    bodies.begin(still, whole);
+    bodies.end(still, whole);
+    table.set(0, first);
+    table.set(1, second);
+    table.set(2, third);
+    table.set(3, 1e-6);
+    CycleMotion moves = still;
+    moves.X_WB[0][1].translation().x() += kStep;
+    bodies.begin(moves, whole);
+    const int soon = table.finish(bodies, due).soon;
+    EXPECT_TRUE(due.empty());
+    return soon;
+  };
+  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep), 1);
+  EXPECT_EQ(soonWith(2.9 * kStep, 9.0 * kStep, 9.0 * kStep), 0);
+  EXPECT_EQ(soonWith(3.1 * kStep, 9.0 * kStep, 9.0 * kStep), -1);
+}
+
 /// As after the world has lost its last body: undefined behaviour only sanitizers see.
 TEST(ClearanceTable, OfNoPairsNoneIsDue) {
   const Scene scene;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "monitor/scene_case.h"
 
@@ -131,6 +132,36 @@ TEST(Schedule, SaysWhatTestingEveryPairSays) {
   EXPECT_GT(skipped, 3000);
   EXPECT_GT(near, 300);
   EXPECT_GT(clear, 8000);
+}
+
+/// Obstacles at equal distances from a moving ball would all be due in the same cycles, again and again, if none were
+/// measured before that.
+TEST(Schedule, MeasuresPairsBeforeManyAreDueAtOnce) {
+  std::vector<BodyDescription> bodies = {body("ball", Primitive(Sphere{0.05}))};
+  constexpr int kObstacles = 6;
+  for (int i = 0; i < kObstacles; ++i)
+    bodies.push_back(body("obstacle " + std::to_string(i), Primitive(Box{{0.05, 0.04, 0.03}})));
+  std::vector<std::vector<Isometry3d>> X_WB(1 + kObstacles);
+  for (int i = 0; i < kObstacles; ++i) {
+    const double angle = 2.0 * M_PI * i / kObstacles;
+    X_WB[1 + i] = {pose(0.2 * Vector3d(std::cos(angle), std::sin(angle), 0.0), angle, Vector3d::UnitZ())};
+  }
+  MonitorOptions options;
+  const auto scene = build(bodies, fine(0.02));
+  Monitor monitor(scene, options);
+  std::size_t most = 0, due = 0;
+  for (int k = 0; k < 400; ++k) {  // up and down along the axis
+    const auto at = [](int step) { return translation({0.0, 0.0, 0.15 * std::sin(0.02 * step)}); };
+    X_WB[0] = {at(k), at(k + 1)};
+    const CycleResult& result = monitor.run(cycle(0.001, X_WB), {});
+    ASSERT_EQ(result.verdict, Verdict::kClear);
+    if (k == 0) continue;
+    const auto now = static_cast<std::size_t>(result.checked);
+    most = std::max(most, now);
+    due += now;
+  }
+  EXPECT_LE(most, 4U);
+  EXPECT_GT(due, 0U);
 }
 
 TEST(Schedule, KeepsWhatItKnowsUntilItIsReset) {
