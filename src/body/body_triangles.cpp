@@ -138,7 +138,7 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
   made->components = std::move(all.components);
   if (pool.exactDepths() && made->voxels.empty() && all.triangles.size() == open)
     made->solids = solidsOf(description, pool);
-  if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(std::move(all.triangles));
+  if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(all.triangles);
   return made;
 }
 

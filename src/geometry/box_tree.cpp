@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "binned_split.h"
+#include "point_numbers.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -49,15 +50,15 @@ Axes axesOf(const Corners& t) {
 /// Builds top-down: boxes along principal axes, split by the surface area heuristic over bins (Wald 2007).
 class BoxTree::Builder {
  public:
-  explicit Builder(BoxTree& tree) : tree_(tree) {}
+  Builder(BoxTree& tree, const std::vector<RoundedTriangle>& triangles) : tree_(tree), triangles_(triangles) {}
 
   void build() {
-    const int count = static_cast<int>(tree_.triangles_.size());
-    for (const RoundedTriangle& t : tree_.triangles_) centers_.push_back(centroid(t.corners));
+    const int count = static_cast<int>(triangles_.size());
+    for (const RoundedTriangle& t : triangles_) centers_.push_back(centroid(t.corners));
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), 0);
     AlignedBox3d all;
-    for (const RoundedTriangle& t : tree_.triangles_)
+    for (const RoundedTriangle& t : triangles_)
       for (const Vector3d& p : t.corners) all.extend(p);
     tree_.origin_ = all.center();
 
@@ -68,10 +69,10 @@ class BoxTree::Builder {
       cancel_.check();
       fill(divide(pending[node]), node, pending);
     }
-    sortTriangles();
+    storeTriangles();
     tree_.ball_.center = tree_.origin_;
     tree_.ball_.radius = 0.0;
-    for (const RoundedTriangle& t : tree_.triangles_)
+    for (const RoundedTriangle& t : triangles_)
       for (const Vector3d& p : t.corners)
         tree_.ball_.radius = std::max(tree_.ball_.radius, (p - tree_.origin_).norm() + t.radius);
   }
@@ -86,7 +87,7 @@ class BoxTree::Builder {
     int size() const { return end - begin; }
   };
 
-  const RoundedTriangle& at(int i) const { return tree_.triangles_[order_[i]]; }
+  const RoundedTriangle& at(int i) const { return triangles_[order_[i]]; }
 
   AlignedBox3d extent(const Range& range, const Axes& axes) const {
     AlignedBox3d box;
@@ -234,31 +235,38 @@ class BoxTree::Builder {
     return bins.bestSplit();
   }
 
-  void sortTriangles() {
-    std::vector<RoundedTriangle> sorted;
-    sorted.reserve(order_.size());
-    for (const int id : order_) sorted.push_back(tree_.triangles_[id]);
-    tree_.triangles_ = std::move(sorted);
+  void storeTriangles() {
+    PointNumbers corners(triangles_.size() / 2);
+    tree_.triangles_.reserve(order_.size());
+    for (const int id : order_) {
+      const Corners& t = triangles_[id].corners;
+      tree_.triangles_.push_back({corners.numberOf(t[0]), corners.numberOf(t[1]), corners.numberOf(t[2])});
+    }
+    tree_.corners_ = std::move(corners.points);
+    tree_.corners_.shrink_to_fit();
+    const auto is_round = [](const RoundedTriangle& t) { return t.radius > 0.0; };
+    if (std::none_of(triangles_.begin(), triangles_.end(), is_round)) return;
+    for (const int id : order_) tree_.radii_.push_back(triangles_[id].radius);
   }
 
   const CancelPoint cancel_;
   BoxTree& tree_;
+  const std::vector<RoundedTriangle>& triangles_;
   std::vector<Vector3d> centers_;
   std::vector<int> order_;
   int least_ = 1;  ///< ranges of at most this many triangles are not split
 };
 
-BoxTree::BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order) : triangles_(std::move(triangles)) {
-  if (triangles_.empty()) throw std::invalid_argument("box tree: no triangles");
-  Builder builder(*this);
+BoxTree::BoxTree(const std::vector<RoundedTriangle>& triangles, std::vector<int>* order) {
+  if (triangles.empty()) throw std::invalid_argument("box tree: no triangles");
+  Builder builder(*this, triangles);
   builder.build();
   if (order) *order = builder.order();
 }
 
 /// Boxes are relative to the origin.
 void BoxTree::displace(const BoxTree& original, const Vector3d& displacement) {
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-    for (int k = 0; k < 3; ++k) triangles_[i].corners[k] = original.triangles_[i].corners[k] + displacement;
+  for (std::size_t i = 0; i < corners_.size(); ++i) corners_[i] = original.corners_[i] + displacement;
   origin_ = original.origin_ + displacement;
   ball_.center = original.ball_.center + displacement;
 }

@@ -46,12 +46,17 @@ class BoxTree {
 
   /// @param triangles  one or more, finite.
   /// @param order      if given, set to the index in `triangles` of each of the tree's triangles.
-  explicit BoxTree(std::vector<RoundedTriangle> triangles, std::vector<int>* order = nullptr);
+  explicit BoxTree(const std::vector<RoundedTriangle>& triangles, std::vector<int>* order = nullptr);
 
   /// Turns a copy of another tree into that tree with all of its triangles displaced. Allocates nothing.
   void displace(const BoxTree& original, const Vector3d& displacement);
 
-  const RoundedTriangle& triangle(int i) const { return triangles_[i]; }
+  RoundedTriangle triangle(int i) const { return {copyOf(corners(i)), radius(i)}; }
+  CornerPointers corners(int i) const {
+    const Indices& t = triangles_[i];
+    return {&corners_[t[0]], &corners_[t[1]], &corners_[t[2]]};
+  }
+  double radius(int i) const { return radii_.empty() ? 0.0 : radii_[i]; }
   std::size_t size() const { return triangles_.size(); }
 
   /// The first node holds a single box, around all triangles.
@@ -62,12 +67,18 @@ class BoxTree {
 
   const Vector3d& origin() const { return origin_; }  ///< of the boxes' coordinates
   const BoundingBall& ball() const { return ball_; }  ///< about the origin, around all triangles
-  std::size_t bytes() const { return nodes_.size() * sizeof(Node) + triangles_.size() * sizeof(RoundedTriangle); }
+  std::size_t bytes() const {
+    return nodes_.size() * sizeof(Node) + triangles_.size() * sizeof(Indices) + corners_.size() * sizeof(Vector3d) +
+           radii_.size() * sizeof(double);
+  }
 
  private:
   class Builder;
+  using Indices = std::array<std::int32_t, 3>;
 
-  std::vector<RoundedTriangle> triangles_;
+  std::vector<Vector3d> corners_;   ///< each position once, in the order of the triangles [m]
+  std::vector<Indices> triangles_;  ///< in `corners_`
+  std::vector<double> radii_;       ///< of the triangles; none if all are zero [m]
   std::vector<Node> nodes_;
   Vector3d origin_ = Vector3d::Zero();
   BoundingBall ball_;

@@ -11,6 +11,17 @@ namespace sdf_ccd {
 /// The corners of a triangle, which may be degenerate.
 using Corners = std::array<Vector3d, 3>;
 
+/// The same, where they are stored.
+using CornerPointers = std::array<const Vector3d*, 3>;
+
+inline CornerPointers pointersTo(const Corners& c) {
+  return {&c[0], &c[1], &c[2]};
+}
+
+inline Corners copyOf(const CornerPointers& c) {
+  return {*c[0], *c[1], *c[2]};
+}
+
 inline Corners cornersOf(const std::vector<Vector3d>& vertices, const Vector3i& triangle) {
   return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
 }

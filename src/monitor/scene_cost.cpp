@@ -23,7 +23,7 @@ namespace {
 constexpr double kSecondsPerPoint = 3.5e-5;  // on one thread; measured on shells of robot links
 constexpr double kBytesPerPoint = 72.0;      // including its share of the sphere tree
 constexpr double kSecondsPerTriangle = 4e-6;
-constexpr double kBytesPerTriangle = 165.0;  // including its share of the box tree
+constexpr double kBytesPerTriangle = 120.0;  // including its share of the box tree
 constexpr double kLeftOfVoxels = 0.36;       // of a map's triangles, when faces are joined to rectangles
 constexpr double kFinestOfSize = 2e-3;       // gap for which a curved primitive is tessellated, relative to its size
 constexpr double kUncertain = 0.35;          // relative standard error; twice this is less than a factor of two

@@ -77,7 +77,7 @@ class DeepestSearch::MotionSearch {
   }
 
  private:
-  const RoundedTriangle& ballOf(int index) const { return surface_.triangles->triangle(index); }
+  RoundedTriangle ballOf(int index) const { return surface_.triangles->triangle(index); }
 
   /// Not a part of its surface, whose corners lie on it.
   bool isWholeBall(const Piece& piece) const {
@@ -86,8 +86,8 @@ class DeepestSearch::MotionSearch {
 
   /// The point of a ball's surface in the direction of a point.
   Vector3d ontoBall(int ball, const Vector3d& p) const {
-    const Vector3d& center = ballOf(ball).corners[0];
-    return center + ballOf(ball).radius * (p - center).normalized();
+    const RoundedTriangle of = ballOf(ball);
+    return of.corners[0] + of.radius * (p - of.corners[0]).normalized();
   }
 
   /// Upper bound of the distance from a triangle with corners on a ball to the part of the surface over it.

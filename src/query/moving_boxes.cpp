@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/infinity.h"
 #include "geometry/triangle.h"
@@ -122,10 +123,11 @@ void sharpen(const RoundedTriangle& triangle, float triangle_reach, const BoxTre
   }
 }
 
-/// The triangle of a box; nullptr if it has several.
-const RoundedTriangle* onlyTriangle(const BoxTree& tree, BoxTree::Slot slot) {
+/// The triangle of a box; empty if it has several.
+std::optional<RoundedTriangle> onlyTriangle(const BoxTree& tree, BoxTree::Slot slot) {
   const std::int32_t below = tree.node(slot.node).below[slot.lane];
-  return BoxTree::isTriangle(below) ? &tree.triangle(BoxTree::triangleOf(below)) : nullptr;
+  if (!BoxTree::isTriangle(below)) return {};
+  return tree.triangle(BoxTree::triangleOf(below));
 }
 
 }  // namespace
@@ -203,8 +205,8 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
   in_any_direction.any += moving_.any_per_reach * of_b.reach[box_b.lane];
   if (!is_close_) return boxGaps(node, boxInA(box_b), direction_A_, in_any_direction, cut, found);
   directedBoxGaps(node, boxInA(box_b), direction_A_, motion, spreadInA(box_b), cut, found);
-  const RoundedTriangle* triangle = onlyTriangle(b_, box_b);
-  if (triangle && found.near != 0)
+  if (found.near == 0) return;
+  if (const auto triangle = onlyTriangle(b_, box_b))
     sharpen({placedInA(triangle->corners), triangle->radius}, of_b.reach[box_b.lane], node, in_any_direction, cut,
             found);
 }
@@ -212,8 +214,8 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
 void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
   if (!is_close_) return boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
   directedBoxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
-  const RoundedTriangle* triangle = onlyTriangle(a_, box_a);
-  if (triangle && found.near != 0) {
+  if (found.near == 0) return;
+  if (const auto triangle = onlyTriangle(a_, box_a)) {
     const float reach = a_.node(box_a.node).reach[box_a.lane];
     sharpen({placedInB(triangle->corners), triangle->radius}, reach, node, moving_, cut, found);
   }

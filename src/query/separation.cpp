@@ -64,7 +64,7 @@ class SeparationQuery {
 
   bool isDone() const { return crossed_ || tests_ > limit_; }
 
-  double radii(const Triangles& pair) const { return a_.triangle(pair.a).radius + b_.triangle(pair.b).radius; }
+  double radii(const Triangles& pair) const { return a_.radius(pair.a) + b_.radius(pair.b); }
 
   // ---- crossing ----
 
@@ -78,7 +78,7 @@ class SeparationQuery {
   /// rounded triangles ends. If they overlap, this point is on the surface of one of them, inside the other one.
   /// @param distance  length of the segment [m].
   double borderAlong(double distance, const Triangles& pair) const {
-    return std::min(a_.triangle(pair.a).radius, distance + b_.triangle(pair.b).radius);
+    return std::min(a_.radius(pair.a), distance + b_.radius(pair.b));
   }
 
   static Vector3d unitOf(const Vector3d& v) {
@@ -240,7 +240,7 @@ class SeparationQuery {
     const Triangles pair{witness_.near_a, witness_.near_b};
     TrianglePairs& single = memory_.single;
     single.size = 0;
-    single.add(a_.triangle(pair.a).corners, b_.triangle(pair.b).corners);
+    single.add(a_.corners(pair.a), b_.corners(pair.b));
     closestGaps(poses_, single);
     ++tests_;
     const double gap = single.gap[0] - radii(pair) - chord_error_;
@@ -251,9 +251,9 @@ class SeparationQuery {
     nearest_ = gap;
     cut_ = std::max(options_.margin, kCut * gap);
     double begin = -kInfinity;
-    for (const Vector3d& p : a_.triangle(pair.a).corners) begin = std::max(begin, direction_.dot(p - a_.origin()));
+    for (const Vector3d* p : a_.corners(pair.a)) begin = std::max(begin, direction_.dot(*p - a_.origin()));
     // The plane may lie anywhere in the gap: either surface may extend into it by half of what the cut distance leaves.
-    return isSlabFree(boxes, begin + a_.triangle(pair.a).radius, gap, 0.5 * (gap - cut_));
+    return isSlabFree(boxes, begin + a_.radius(pair.a), gap, 0.5 * (gap - cut_));
   }
 
   /// Whether A ends before a slab across the boxes' direction, and B begins behind it.
@@ -315,7 +315,7 @@ class SeparationQuery {
   void add(const Triangles& pair) {
     TrianglePairs& group = memory_.filter;
     memory_.filter_ids[group.size] = pair;
-    group.add(a_.triangle(pair.a).corners, b_.triangle(pair.b).corners);
+    group.add(a_.corners(pair.a), b_.corners(pair.b));
     if (group.size == TrianglePairs::kSize) filter();
   }
 
@@ -383,8 +383,8 @@ class SeparationQuery {
   /// known to be apart then is left open, and the time is not halved further.
   double motionOf(const Triangles& pair) const {
     double moved = 0.0;
-    for (const Vector3d& p : b_.triangle(pair.b).corners)
-      moved = std::max(moved, (poses_.X_AB_end * p - poses_.X_AB_start * p).norm());
+    for (const Vector3d* p : b_.corners(pair.b))
+      moved = std::max(moved, (poses_.X_AB_end * *p - poses_.X_AB_start * *p).norm());
     return moved;
   }
 

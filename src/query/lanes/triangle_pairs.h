@@ -18,14 +18,16 @@ struct TrianglePairs {
   alignas(64) Lane distance2;                   ///< the result of closestGaps(): halfway between both poses [m²]
   int size = 0;                                 ///< lanes in use
 
-  void add(const Corners& corners_a, const Corners& corners_b) {
+  void add(const CornerPointers& corners_a, const CornerPointers& corners_b) {
     const int i = size++;
     for (int corner = 0; corner < 3; ++corner)
       for (int k = 0; k < 3; ++k) {
-        a[corner][k][i] = corners_a[corner][k];
-        b[corner][k][i] = corners_b[corner][k];
+        a[corner][k][i] = (*corners_a[corner])[k];
+        b[corner][k][i] = (*corners_b[corner])[k];
       }
   }
+  void add(const Corners& corners_a, const Corners& corners_b) { add(pointersTo(corners_a), pointersTo(corners_b)); }
+
   /// Copies one pair of another group.
   void add(const TrianglePairs& from, int i) {
     for (int corner = 0; corner < 3; ++corner)
