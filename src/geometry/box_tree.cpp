@@ -62,7 +62,7 @@ class BoxTree::Builder {
       for (const Vector3d& p : t.corners) all.extend(p);
     tree_.origin_ = all.center();
 
-    std::vector<Range> pending = {{0, count, 0}};  // of each node
+    std::vector<Range> pending = {rangeOf(0, count, 0)};  // of each node
     tree_.nodes_.emplace_back();
     fill(pending, 0, pending);
     for (std::size_t node = 1; node < tree_.nodes_.size(); ++node) {
@@ -81,11 +81,22 @@ class BoxTree::Builder {
   const std::vector<int>& order() const { return order_; }
 
  private:
+  /// Triangles that are consecutive in `order_`, and the box along their principal axes, from the tree's origin.
   struct Range {
     int begin, end;
     int depth;
+    Axes axes;
+    AlignedBox3d box;
     int size() const { return end - begin; }
   };
+
+  Range rangeOf(int begin, int end, int depth) const {
+    Range range{begin, end, depth, {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}, {}};
+    if (range.size() == 1) range.axes = axesOf(at(begin).corners);
+    range.box = extent(range, range.axes);
+    if (range.size() > 1) align(range);
+    return range;
+  }
 
   const RoundedTriangle& at(int i) const { return triangles_[order_[i]]; }
 
@@ -99,23 +110,24 @@ class BoxTree::Builder {
     return box;
   }
 
-  Axes mainAxes(const Range& range) const {
-    if (range.size() == 1) return axesOf(at(range.begin).corners);
+  /// Turns the box to the principal axes, if it is smaller there.
+  void align(Range& range) const {
     Moments moments;
     for (int i = range.begin; i < range.end; ++i) {
       Corners t = at(i).corners;
       for (Vector3d& p : t) p -= tree_.origin_;
       moments.add(t);
     }
-    Axes axes = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-    if (!(moments.area > 0.0)) return axes;
+    if (!(moments.area > 0.0)) return;
     const Vector3d mean = moments.first / moments.area;
     const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(moments.second / moments.area - mean * mean.transpose());
     const Axes main = {solver.eigenvectors().col(0).normalized(), solver.eigenvectors().col(1).normalized(),
                        solver.eigenvectors().col(0).cross(solver.eigenvectors().col(1)).normalized()};
-    const bool sound = main[0].allFinite() && main[1].allFinite() && main[2].allFinite();
-    if (sound && halfArea(extent(range, main)) < halfArea(extent(range, axes))) axes = main;
-    return axes;
+    if (!main[0].allFinite() || !main[1].allFinite() || !main[2].allFinite()) return;
+    const AlignedBox3d box = extent(range, main);
+    if (!(halfArea(box) < halfArea(range.box))) return;
+    range.axes = main;
+    range.box = box;
   }
 
   /// Writes the ranges' boxes into a node, and appends nodes for ranges of several triangles.
@@ -138,11 +150,12 @@ class BoxTree::Builder {
   }
 
   void setBox(const Range& range, int lane, Node& node) const {
-    Axes axes = mainAxes(range);
+    Axes axes = range.axes;
+    Vector3d middle = range.box.center();
     int flattest;
-    extent(range, axes).sizes().minCoeff(&flattest);
+    range.box.sizes().minCoeff(&flattest);
     std::swap(axes[0], axes[flattest]);
-    const Vector3d middle = extent(range, axes).center();
+    std::swap(middle[0], middle[flattest]);
     const Vector3d center = middle[0] * axes[0] + middle[1] * axes[1] + middle[2] * axes[2];
     double radius = 0.0, reach = 0.0;
     Vector3d half = Vector3d::Zero();
@@ -185,12 +198,10 @@ class BoxTree::Builder {
     return parts;
   }
 
-  double weight(const Range& range) const {
-    return range.size() <= least_ ? -1.0 : halfArea(extent(range, mainAxes(range)));
-  }
+  double weight(const Range& range) const { return range.size() <= least_ ? -1.0 : halfArea(range.box); }
 
   std::pair<Range, Range> split(const Range& range) {
-    const Axes axes = mainAxes(range);
+    const Axes& axes = range.axes;
     int axis = 0;
     double low = 0.0, size = -1.0;
     for (int k = 0; k < 3; ++k) {
@@ -216,7 +227,7 @@ class BoxTree::Builder {
       std::nth_element(begin, middle, end, [&](int a, int b) { return coordinate(a) < coordinate(b); });
     }
     const int at = static_cast<int>(middle - order_.begin());
-    return {{range.begin, at, range.depth + 1}, {at, range.end, range.depth + 1}};
+    return {rangeOf(range.begin, at, range.depth + 1), rangeOf(at, range.end, range.depth + 1)};
   }
 
   static int binOf(double x, double low, double scale) {
