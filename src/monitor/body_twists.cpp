@@ -27,13 +27,22 @@ constexpr double kMin = 1e-18;  // [m]
 using Bits __attribute__((vector_size(32))) = std::int64_t;
 using BitsInMemory __attribute__((vector_size(32), aligned(8), may_alias)) = std::int64_t;
 
-/// Bitwise equality.
-SDF_CCD_INLINE bool same(const Isometry3d& a, const Isometry3d& b) {
+/// The bits in which two poses differ, in any coordinate.
+SDF_CCD_INLINE Bits difference(const Isometry3d& a, const Isometry3d& b) {
   Bits differ{};
   for (int i = 0; i < 16; i += 4)
     differ |=
         *reinterpret_cast<const BitsInMemory*>(a.data() + i) ^ *reinterpret_cast<const BitsInMemory*>(b.data() + i);
-  return (differ[0] | differ[1] | differ[2] | differ[3]) == 0;
+  return differ;
+}
+
+SDF_CCD_INLINE bool isZero(const Bits& bits) {
+  return (bits[0] | bits[1] | bits[2] | bits[3]) == 0;
+}
+
+/// Bitwise equality.
+SDF_CCD_INLINE bool same(const Isometry3d& a, const Isometry3d& b) {
+  return isZero(difference(a, b));
 }
 
 /// Upper bound of the norm, without a square root.
@@ -143,15 +152,19 @@ SDF_CCD_LANES void BodyTwists::begin(const CycleMotion& motion, const std::vecto
   for (const std::size_t b : paired_) {
     Followed& body = bodies_[b];
     const bool is_there = is_whole[b] && (motion.missing.empty() || motion.missing[b].empty());
+    const double motion_error = motion.motion_error.empty() ? 0.0 : motion.motion_error[b];
+    const bool rested = is_there && body.rests && body.is_followed && motion_error == body.motion_error;
+    if (rested && isZero(difference(motion.X_WB[b].front(), body.X_WB) | difference(motion.pose(b, 1), body.X_WB))) {
+      body.began = true;
+      continue;
+    }
     body.began = is_there && body.is_known && same(motion.X_WB[b].front(), body.X_WB);
     if (!body.began) {
       if (body.is_followed) lose(b);
       continue;
     }
     body.is_followed = true;
-    const double motion_error = motion.motion_error.empty() ? 0.0 : motion.motion_error[b];
     const bool stays = same(motion.pose(b, 1), body.X_WB);
-    if (stays && body.rests && motion_error == body.motion_error) continue;
     body.rests = false;
     body.motion_error = motion_error;
     body.tilt = body.defect;

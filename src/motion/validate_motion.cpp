@@ -48,16 +48,19 @@ void validate(const CycleMotion& motion, const MotionShape& shape, const char* w
   requireFit(motion.X_WB.size(), "made for ");
   if (!motion.missing.empty()) requireFit(motion.missing.size(), "lists missing poses for ");
   if (!motion.motion_error.empty()) requireFit(motion.motion_error.size(), "has motion errors of ");
+  const auto may_lack = [&](std::size_t b) {
+    return (!shape.without_poses.empty() && shape.without_poses[b]) ||
+           (!motion.missing.empty() && !motion.missing[b].empty());
+  };
   for (std::size_t b = 0; b < bodies; ++b) {
-    const bool may_lack = (!shape.without_poses.empty() && shape.without_poses[b]) ||
-                          (!motion.missing.empty() && !motion.missing[b].empty());
     const std::size_t poses = motion.X_WB[b].size();
-    if (!may_lack && poses != 1 && poses != motion.times.size())
+    if (poses != motion.times.size() && poses != 1 && !may_lack(b))
       refuse(shape.bodies[b] + " has " + std::to_string(poses) + " poses at " + std::to_string(motion.times.size()) +
              " times");
-    if (!motion.motion_error.empty() && !(motion.motion_error[b] >= 0.0))
-      refuse("motion error of " + shape.bodies[b] + " is " + numberText(motion.motion_error[b]));
   }
+  for (std::size_t b = 0; b < motion.motion_error.size(); ++b)
+    if (!(motion.motion_error[b] >= 0.0))
+      refuse("motion error of " + shape.bodies[b] + " is " + numberText(motion.motion_error[b]));
 }
 
 }  // namespace sdf_ccd
