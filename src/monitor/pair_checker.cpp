@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "crossing_intervals.h"
 #include "pair_bound.h"
 #include "pair_result.h"
 #include "pose_rounding.h"
@@ -214,7 +213,7 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     findContacts(motion, request, by_surfaces, result);
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
       refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
-    if (surfaces_) completePeaks(result);
+    if (surfaces_) surfaceContacts(result).completePeaks();
     if (!crossing) doubt(result);
     if (by_surfaces.state == SeparationState::kApart) keepInside(result);
     return setSurfaceError(by_surfaces.open_within, surface_error, result);
@@ -254,61 +253,16 @@ void PairChecker::setClear(double clearance, PairResult& result) {
   result.clearance = clearance - motion_error_;
 }
 
+SurfaceContacts PairChecker::surfaceContacts(PairResult& result) {
+  return {scene_, pair_, surfaces_ ? &*surfaces_ : nullptr, motion_error_, memory_->separation, result};
+}
+
 /// Sets a contact of which only a crossing of the surfaces is known, or that one body is inside the other.
 void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) {
   forgetClearance();
   result.verdict = Verdict::kContact;
   result.intervals.push_back({crossing.enter, crossing.exit});
   result.deepest = crossing;
-}
-
-/// Adds a known crossing of the surfaces to the contacts that points feel, and what lasts besides without being felt.
-void PairChecker::addCrossing(ContactPoint crossing, PairResult& result) {
-  std::vector<Interval>& intervals = result.intervals;
-  const std::size_t felt = intervals.size();
-  if (crossing.enter < crossing.exit) {  // one body is inside the other all the time
-    intervals.assign(1, {crossing.enter, crossing.exit});
-    if (felt > 0) {
-      setTimes(intervals, result.deepest);
-      result.peaks.assign(1, result.deepest);
-    }
-  }
-  setTimes(intervals, crossing);
-  if (felt == 0) result.deepest = crossing;
-  if (intervals.size() > felt) result.peaks.push_back(crossing);
-  if (surfaces_) addCrossings(*surfaces_, motion_error_, memory_->separation, intervals, result.peaks);
-  boundHiddenDepths(result);
-}
-
-/// Looks for a crossing in intervals without a point, such as those that only the first touch is known of.
-void PairChecker::completePeaks(PairResult& result) {
-  for (std::size_t i = 0; i < result.intervals.size(); ++i) {
-    const Interval interval = result.intervals[i];
-    if (deepestWithin(result, interval)) continue;
-    for (const double time : {interval.exit, 0.5 * (interval.enter + interval.exit), interval.enter}) {
-      const std::optional<ContactPoint> crossing = surfaces_->crossingAt(time, motion_error_, memory_->separation);
-      if (!crossing) continue;
-      result.peaks.push_back(*crossing);
-      boundHiddenDepth(result, result.peaks.back());
-      break;
-    }
-  }
-}
-
-/// Points that only touch, or a crossing that no point feels, do not tell how deep the bodies are.
-void PairChecker::boundHiddenDepths(PairResult& result) const {
-  if (!(result.deepest.depth > 0.0)) boundHiddenDepth(result, result.deepest);
-  for (ContactPoint& peak : result.peaks)
-    if (!(peak.depth > 0.0)) boundHiddenDepth(result, peak);
-}
-
-void PairChecker::boundHiddenDepth(PairResult& result, ContactPoint& point) const {
-  const ErrorBound& error = result.contact_error;
-  double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
-  if (result.refined) hidden = std::min(hidden, result.deepest.depth + result.deepest.depth_error);
-  setTimes(result.intervals, point);
-  point.depth = 0.0;  // not −0
-  point.depth_error = std::max(point.depth_error, hidden);
 }
 
 /// The verdict's error if both bodies have triangles: that of the triangles and of the motion, also if fields decided.
@@ -381,7 +335,7 @@ void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& re
   roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
   collector.finish(request, result);
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
-  if (crossing) addCrossing(*crossing, result);
+  if (crossing) surfaceContacts(result).add(*crossing);
   // CONTACT is certain, whatever the gap between points and the field's error are: a point of the surface is deeper
   // than the motion's error.
   result.verdict = isDeep(result) || collector.crosses() ? Verdict::kContact : Verdict::kUncertain;

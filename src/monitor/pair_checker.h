@@ -6,6 +6,7 @@
 
 #include "contact_refinement.h"
 #include "pair_roles.h"
+#include "surface_contacts.h"
 #include "surface_pair.h"
 
 namespace sdf_ccd {
@@ -93,10 +94,7 @@ class PairChecker {
   double givenError(const CycleMotion& motion, const RelativeMotion& relative) const;
   void setError(const ErrorBound& bound, double root, PairResult& result) const;
   void setClear(double clearance, PairResult& result);
-  void completePeaks(PairResult& result);
-  void boundHiddenDepths(PairResult& result) const;
-  void boundHiddenDepth(PairResult& result, ContactPoint& point) const;
-  void addCrossing(ContactPoint crossing, PairResult& result);
+  SurfaceContacts surfaceContacts(PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;
