@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
 """Drives the monitor through tf, like a robot, and tests its messages."""
+import importlib.machinery
+import importlib.util
+import os
 import signal
 import subprocess
 import sys
@@ -375,6 +378,23 @@ class MonitorTest(MonitorCase):
         self.assertEqual(rospy.get_param('/late_monitor/fixed_frame'), 'base')  # as inserted by after_monitor
         rospy.set_param('/late_description', rospy.get_param('/collision_monitor/robot_description'))
         self.assertIsNotNone(states.find(lambda m: m.header.frame_id == 'base'))
+
+    def test_view_follows_a_robot_that_moves_in_its_fixed_frame(self):
+        script = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'scripts', 'after_monitor')
+        loader = importlib.machinery.SourceFileLoader('after_monitor', script)
+        after_monitor = importlib.util.module_from_spec(importlib.util.spec_from_loader('after_monitor', loader))
+        loader.exec_module(after_monitor)
+        config = os.path.join(os.path.dirname(script), '..', 'config', 'monitor.rviz')
+        urdf = rospy.get_param('/collision_monitor/robot_description')
+        self.assertEqual(after_monitor.following(config, 'base', urdf), config)
+        for bad in (None, '', '<robot>', '<robot><joint/></robot>', '<robot><link/></robot>'):
+            self.assertEqual(after_monitor.following(config, 'map', bad), config)
+        copy = after_monitor.following(config, 'map', urdf)
+        try:
+            with open(copy) as changed, open(config) as file:
+                self.assertEqual(changed.read(), file.read().replace('<Fixed Frame>', 'base'))
+        finally:
+            os.remove(copy)
 
     def test_ends_at_once_however_seldom_it_cycles(self):
         states = Recorder('/slow_monitor/state', MonitorState)
