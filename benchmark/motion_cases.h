@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "oracle/shapes.h"
+#include "common/pi.h"
+#include "oracle/random.h"
+#include "precision/random_inputs.h"
 #include "segment_cases.h"
 #include "shell_system.h"
 
@@ -35,10 +37,10 @@ class MotionCases {
 
  private:
   PosePair pair(const std::string& name, test::Random& random) const {
-    const Matrix3d R = rotation(random);
+    const Matrix3d R = precision::rotation(random);
     if (name == "random") {
       const Isometry3d start = pose(R, offset(random, 1.5));
-      return {start, pose(rotation(random), offset(random, 1.5))};
+      return {start, pose(precision::rotation(random), offset(random, 1.5))};
     }
     const Vector3d u = test::direction(random);
     if (name == "small") {
@@ -53,16 +55,8 @@ class MotionCases {
     return moved(pose(R, offset(random, name == "deep" ? 0.1 : 0.5)), travel, random);
   }
 
-  /// A rotation, uniform over all orientations (Shoemake 1992).
-  static Matrix3d rotation(test::Random& random) {
-    const double u = test::uniform(random, 0.0, 1.0);
-    const double a = test::uniform(random, 0.0, 2.0 * test::kPi), b = test::uniform(random, 0.0, 2.0 * test::kPi);
-    const double v = std::sqrt(1.0 - u), w = std::sqrt(u);
-    return Quaterniond(v * std::sin(a), v * std::cos(a), w * std::sin(b), w * std::cos(b)).toRotationMatrix();
-  }
-
   Vector3d offset(test::Random& random, double half_box) const {
-    return half_box * side_ * test::uniformIn(random, {Vector3d::Constant(-1.0), Vector3d::Constant(1.0)});
+    return half_box * side_ * test::pointInCube(random, 1.0);
   }
 
   /// Pose with the shell's centre at `offset` from the field's.
@@ -99,8 +93,8 @@ class MotionCases {
     return 0.0;
   }
 
-  static constexpr double kTravel = 0.01;                 ///< of the field's side
-  static constexpr double kTurn = 0.5 * test::kPi / 180;  ///< [rad]
+  static constexpr double kTravel = 0.01;           ///< of the field's side
+  static constexpr double kTurn = 0.5 * kPi / 180;  ///< [rad]
 
   ShellSubject subject_;
   double side_, shell_side_;

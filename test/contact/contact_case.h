@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "contact/penalty.h"
@@ -15,12 +14,6 @@ inline Isometry3d translation(const Vector3d& p) {
 
 inline Isometry3d pose(const Vector3d& p, double angle, const Vector3d& axis) {
   return Eigen::Translation3d(p) * Eigen::AngleAxisd(angle, axis.normalized());
-}
-
-inline Isometry3d randomPose(std::mt19937& random, double extent) {
-  std::uniform_real_distribution<double> u(-1.0, 1.0);
-  return pose(extent * Vector3d(u(random), u(random), u(random)), 3.0 * u(random),
-              Vector3d(u(random), u(random), u(random) + 2.0));
 }
 
 /// Points in a spiral on a sphere, all of the same area, at equal steps in z, so that sums over z are midpoint sums.

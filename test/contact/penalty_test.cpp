@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/contact_case.h"
+#include "oracle/random.h"
 #include "oracle/sampled_function.h"
 #include "sdf_ccd/field/build_field.h"
 
@@ -152,7 +153,7 @@ TEST(Penalty, DepthInRoundBodiesIsExact) {
   const auto inBall = [](const Vector3d& p) { return 0.5 - p.norm(); };
   const std::vector<std::pair<DistanceField, std::function<double(const Vector3d&)>>> bodies = {
       {DistanceField(Cylinder{0.5, 0.3}), inCylinder}, {DistanceField(Sphere{0.5}), inBall}};
-  std::mt19937 random(12);
+  Random random(12);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (const auto& [field, depthAt] : bodies) {
     int found = 0;
@@ -192,9 +193,9 @@ TEST(Penalty, WithoutImpulseOnlyDepthsAreFound) {
 }
 
 TEST(Penalty, WithoutErrorsAllElseIsTheSame) {
-  std::mt19937 random(3);
+  Random random(3);
   for (const DistanceField& field : {curvedField(), DistanceField(Primitive(Box{{0.3, 0.2, 0.1}}))}) {
-    const Isometry3d X_FP = randomPose(random, 0.05), X_end = translation({0.01, -0.02, 0.01}) * X_FP;
+    const Isometry3d X_FP = pose(random, 3.0, 0.05), X_end = translation({0.01, -0.02, 0.01}) * X_FP;
     const ContactCase pressed{field, spiralSphere(0.15, 60), oneChord(1.0, X_FP, X_end)};
     for (const bool impulse : {false, true}) {
       const ContactImpulse with = pressed.run(perArea(), {impulse, true}),
@@ -215,7 +216,7 @@ TEST(Penalty, WithoutErrorsAllElseIsTheSame) {
 }
 
 TEST(Penalty, ExactRuleIntegratesTheInterpolatedField) {
-  std::mt19937 random(7);
+  Random random(7);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   const DistanceField field = curvedField();
   ContactOptions exact = perArea(), twenty = perArea(), dense = perArea();
@@ -270,7 +271,7 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
       {DistanceField(Cylinder{0.5, 0.3}), [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.3); }},
       {DistanceField(Cylinder{0.5, 0.05}), [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.05); }},
       {DistanceField(Sphere{0.5}), [&](const Vector3d& p) { return inBall(p, 0.5); }}};
-  std::mt19937 random(8);
+  Random random(8);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (const Round& body : bodies) {
     double sum = 0.0, worst = 0.0, shallower = 0.0;
@@ -309,11 +310,11 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
 }
 
 TEST(Penalty, FrameOfIntegrationOnlyTurnsTheWrench) {
-  std::mt19937 random(3);
+  Random random(3);
   ContactOptions options = perArea();
   options.damping = 1e4;
   for (int i = 0; i < 20; ++i) {
-    const Isometry3d turn = randomPose(random, 1.0), X_CF0 = randomPose(random, 1.0), X_CF1 = randomPose(random, 1.0);
+    const Isometry3d turn = pose(random, 3.0, 1.0), X_CF0 = pose(random, 3.0, 1.0), X_CF1 = pose(random, 3.0, 1.0);
     ContactCase moving{DistanceField(Box{{0.3, 0.2, 0.1}}),
                        spiralSphere(0.2, 300),
                        oneChord(0.3, pose({0.4, 0, 0.1}, 0.3, {1, 2, 3}), pose({0.2, 0.1, 0.1}, 0.9, {1, 2, 3})),
@@ -328,11 +329,11 @@ TEST(Penalty, FrameOfIntegrationOnlyTurnsTheWrench) {
 }
 
 TEST(Penalty, FrameOfTheShellDoesNotMatter) {
-  std::mt19937 random(5);
+  Random random(5);
   ContactCase moving{DistanceField(Box{{0.3, 0.2, 0.1}}), spiralSphere(0.2, 300),
                      oneChord(0.3, translation({0.4, 0, 0.1}), translation({0.2, 0.1, 0.1}))};
   const Wrench before = moving.run(perArea()).on_shell_body;
-  const Isometry3d X_PQ = randomPose(random, 1.0);
+  const Isometry3d X_PQ = pose(random, 3.0, 1.0);
   for (Vector3d& p : moving.shell.points) p = X_PQ.inverse() * p;
   for (Vector3f& n : moving.shell.normals) n = X_PQ.linear().transpose().cast<float>() * n;
   moving.path.chords[0].X_FP_start = moving.path.chords[0].X_FP_start * X_PQ;
@@ -354,7 +355,7 @@ TEST(Penalty, TurningBodiesTurnTheForceWithThem) {
 }
 
 TEST(Penalty, DampingTakesEnergyFromEveryMotion) {
-  std::mt19937 random(11);
+  Random random(11);
   std::uniform_real_distribution<double> u(-0.1, 0.1);
   for (int i = 0; i < 50; ++i) {
     // One point, so that power is force times its own velocity.

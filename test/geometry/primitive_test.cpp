@@ -1,23 +1,18 @@
 #include "sdf_ccd/geometry/primitive.h"
 
 #include <limits>
-#include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "geometry/triangle_tree.h"
+#include "oracle/random.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {
 namespace {
 
 const std::vector<Primitive> kSolids = {Sphere{0.5}, Box{{0.2, 0.3, 0.7}}, Cylinder{0.3, 0.6}, Cylinder{0.6, 0.1}};
-
-Vector3d randomPoint(std::mt19937_64& random, double reach) {
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  return {uniform(random), uniform(random), uniform(random)};
-}
 
 TEST(Primitive, ClosedForms) {
   EXPECT_DOUBLE_EQ(signedDistance(Sphere{2}, {0, 3, 4}), 3);
@@ -29,12 +24,12 @@ TEST(Primitive, ClosedForms) {
 }
 
 TEST(Primitive, DistanceIsExactAgainstAFineMesh) {
-  std::mt19937_64 random(1);
+  test::Random random(1);
   for (const Primitive& solid : kSolids) {
     const double deviation = 2e-5;
     const TriangleTree tree(tessellate(solid, deviation));
     for (int i = 0; i < 500; ++i) {
-      const Vector3d p = randomPoint(random, 1.2);
+      const Vector3d p = test::pointInCube(random, 1.2);
       const double sign = tree.windingNumber(p) > 0.5 ? -1 : 1;
       EXPECT_NEAR(signedDistance(solid, p), sign * tree.closestPoint(p).distance, 1.01 * deviation);
     }
@@ -42,13 +37,13 @@ TEST(Primitive, DistanceIsExactAgainstAFineMesh) {
 }
 
 TEST(Primitive, GradientIsUnitAndTheSlopeOfTheDistance) {
-  std::mt19937_64 random(2);
+  test::Random random(2);
   std::vector<Primitive> solids = kSolids;
   solids.push_back(HalfSpace{Vector3d(1, 2, 3).normalized(), 0.1});
   for (const Primitive& solid : solids) {
     int smooth = 0;
     for (int i = 0; i < 2000; ++i) {
-      const Vector3d p = randomPoint(random, 1.2);
+      const Vector3d p = test::pointInCube(random, 1.2);
       const Vector3d gradient = distanceGradient(solid, p);
       ASSERT_NEAR(gradient.norm(), 1, 1e-12);
       // Stepping against the gradient by the distance lands on the surface, off the medial axis.
@@ -67,10 +62,10 @@ TEST(Primitive, GradientOfSymmetricPointsIsUnitAndNotNan) {
 }
 
 TEST(Primitive, DistanceIsConvexAlongLines) {
-  std::mt19937_64 random(3);
+  test::Random random(3);
   for (const Primitive& solid : kSolids) {
     for (int i = 0; i < 2000; ++i) {
-      const Vector3d a = randomPoint(random, 1), b = randomPoint(random, 1);
+      const Vector3d a = test::pointInCube(random, 1), b = test::pointInCube(random, 1);
       const double middle = signedDistance(solid, (a + b) / 2);
       EXPECT_LE(middle, (signedDistance(solid, a) + signedDistance(solid, b)) / 2 + 1e-12);
     }

@@ -1,7 +1,6 @@
 #include "geometry/triangle_tree.h"
 
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -14,20 +13,15 @@
 namespace sdf_ccd {
 namespace {
 
-Vector3d randomPoint(std::mt19937_64& random, double reach) {
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  return {uniform(random), uniform(random), uniform(random)};
-}
-
 /// Triangles of every size, needles and specks among them.
 TriangleMesh randomSoup(int count, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  test::Random random(seed);
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
-    const Vector3d center = randomPoint(random, 1);
-    const double size = std::pow(10.0, -4 * std::abs(randomPoint(random, 1).x()));
-    for (int corner = 0; corner < 3; ++corner) mesh.vertices.push_back(center + randomPoint(random, size));
-    if (i % 7 == 0) mesh.vertices.back() = mesh.vertices[3 * i] + 1e-9 * randomPoint(random, 1);
+    const Vector3d center = test::pointInCube(random, 1);
+    const double size = std::pow(10.0, -4 * std::abs(test::pointInCube(random, 1).x()));
+    for (int corner = 0; corner < 3; ++corner) mesh.vertices.push_back(center + test::pointInCube(random, size));
+    if (i % 7 == 0) mesh.vertices.back() = mesh.vertices[3 * i] + 1e-9 * test::pointInCube(random, 1);
     if (i % 50 == 0) mesh.vertices.back() = (mesh.vertices[3 * i] + mesh.vertices[3 * i + 1]) / 2;
     mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
   }
@@ -46,9 +40,9 @@ double bruteDistance(const TriangleMesh& mesh, const Vector3d& p) {
 TEST(TriangleTree, ClosestPointEqualsBruteForce) {
   const TriangleMesh mesh = randomSoup(700, 1);
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(2);
+  test::Random random(2);
   for (int i = 0; i < 1000; ++i) {
-    const Vector3d p = randomPoint(random, i % 2 ? 1.1 : 5);
+    const Vector3d p = test::pointInCube(random, i % 2 ? 1.1 : 5);
     const TriangleTree::ClosestPoint found = tree.closestPoint(p);
     EXPECT_DOUBLE_EQ(found.distance, bruteDistance(mesh, p));
     EXPECT_DOUBLE_EQ((found.point - p).norm(), found.distance);
@@ -60,10 +54,10 @@ TEST(TriangleTree, ClosestPointEqualsBruteForce) {
 TEST(TriangleTree, FlatPiecesSeenFromAboveLoseNothing) {
   const TriangleMesh mesh = test::torusMesh(1, 0.3, 60, 20);
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(9);
+  test::Random random(9);
   int last = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d p = randomPoint(random, std::pow(10.0, i % 5 - 1));
+    const Vector3d p = test::pointInCube(random, std::pow(10.0, i % 5 - 1));
     const TriangleTree::ClosestPoint found = tree.closestPointNear(p, last);
     EXPECT_DOUBLE_EQ(found.distance, bruteDistance(mesh, p));
     last = found.triangle;
@@ -71,14 +65,14 @@ TEST(TriangleTree, FlatPiecesSeenFromAboveLoseNothing) {
 }
 
 TEST(FlatCylinder, HoldsWhatItWasMadeOf) {
-  std::mt19937_64 random(10);
+  test::Random random(10);
   for (int i = 0; i < 200; ++i) {
-    FlatCylinder cylinder{randomPoint(random, 1), randomPoint(random, 1).normalized()};
+    FlatCylinder cylinder{test::pointInCube(random, 1), test::pointInCube(random, 1).normalized()};
     if (i % 10 == 0) cylinder.axis.setZero();
     std::vector<Vector3d> held;
-    for (int k = 0; k < 5; ++k) held.push_back(randomPoint(random, 1));
+    for (int k = 0; k < 5; ++k) held.push_back(test::pointInCube(random, 1));
     for (const Vector3d& p : held) cylinder.extend(p);
-    const Vector3d p = randomPoint(random, 5);
+    const Vector3d p = test::pointInCube(random, 5);
     double nearest = kInfinity;
     for (const Vector3d& q : held) nearest = std::min(nearest, (q - p).norm());
     EXPECT_TRUE(cylinder.mayBeWithin(nearest, p));
@@ -110,11 +104,11 @@ TEST(TriangleTree, MaxDistanceCutsOffExactlyThere) {
 TEST(TriangleTree, FarthestAlongEqualsBruteForce) {
   const TriangleMesh mesh = randomSoup(700, 5);
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(6);
+  test::Random random(6);
   int found_some = 0, stopped = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Vector3d p = randomPoint(random, 1.1), n = randomPoint(random, 1).normalized();
-    const double radius = std::abs(randomPoint(random, i % 2 ? 0.1 : 1.0).x());
+    const Vector3d p = test::pointInCube(random, 1.1), n = test::pointInCube(random, 1).normalized();
+    const double radius = std::abs(test::pointInCube(random, i % 2 ? 0.1 : 1.0).x());
     double farthest = -radius;
     for (const Vector3i& t : mesh.triangles) {
       const Corners corners = cornersOf(mesh.vertices, t);
@@ -136,9 +130,9 @@ TEST(TriangleTree, FarthestAlongEqualsBruteForce) {
 TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
   const TriangleMesh mesh = randomSoup(300, 3);
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(4);
+  test::Random random(4);
   for (int i = 0; i < 300; ++i) {
-    const Vector3d p = randomPoint(random, 1.5);
+    const Vector3d p = test::pointInCube(random, 1.5);
     EXPECT_NEAR(tree.windingNumber(p, kInfinity), test::windingNumber(mesh, p), 1e-11);
   }
 }
@@ -146,10 +140,10 @@ TEST(TriangleTree, FullWindingNumberEqualsBruteForce) {
 TEST(TriangleTree, FastWindingNumberIsNearAndConvergesWithAccuracy) {
   const TriangleMesh mesh = test::torusMesh(1, 0.3, 120, 40);
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(5);
+  test::Random random(5);
   double worst2 = 0, worst4 = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vector3d p = randomPoint(random, 1.5);
+    const Vector3d p = test::pointInCube(random, 1.5);
     const double exact = test::windingNumber(mesh, p);
     worst2 = std::max(worst2, std::abs(tree.windingNumber(p) - exact));
     worst4 = std::max(worst4, std::abs(tree.windingNumber(p, 4) - exact));
@@ -168,18 +162,18 @@ TEST(TriangleTree, ExpansionHoldsForOpenMeshes) {
   }
   mesh.triangles = upper;
   const TriangleTree tree(mesh);
-  std::mt19937_64 random(6);
+  test::Random random(6);
   for (int i = 0; i < 1000; ++i) {
-    const Vector3d p = randomPoint(random, 3);
+    const Vector3d p = test::pointInCube(random, 3);
     EXPECT_NEAR(tree.windingNumber(p), test::windingNumber(mesh, p), 0.01);
   }
 }
 
 TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
   const TriangleTree tree(test::icosphere(1, 4));
-  std::mt19937_64 random(7);
+  test::Random random(7);
   for (int i = 0; i < 5000; ++i) {
-    const Vector3d p = randomPoint(random, 1.5);
+    const Vector3d p = test::pointInCube(random, 1.5);
     if (p.norm() > 0.99 && p.norm() < 1.0001) continue;  // between the sphere and its chords
     EXPECT_NEAR(tree.windingNumber(p), p.norm() < 1 ? 1 : 0, 0.02);
   }
@@ -187,15 +181,15 @@ TEST(TriangleTree, WindingNumberTellsInsideFromOutside) {
 
 TEST(TriangleTree, InsideIsRightWhereManyLayersNearlyCoincide) {
   for (const double shift : {0.0, 1e-6, 1e-3}) {
-    std::mt19937_64 random(11);
+    test::Random random(11);
     TriangleMesh mesh = test::boxMesh({1, 1, 1});
     for (int i = 1; i < 600; ++i) {
-      mesh = merged(mesh, test::translated(test::boxMesh({1, 1, 1}), randomPoint(random, shift)));
+      mesh = merged(mesh, test::translated(test::boxMesh({1, 1, 1}), test::pointInCube(random, shift)));
     }
     const TriangleTree tree(mesh);
     double worst = 0;
     for (int i = 0; i < 1000; ++i) {
-      const Vector3d p = randomPoint(random, 4);
+      const Vector3d p = test::pointInCube(random, 4);
       const double outside = p.cwiseAbs().maxCoeff() - 1;
       if (std::abs(outside) < 0.01) continue;
       EXPECT_EQ(tree.inside(p, TriangleTree::Inside::kNotZero), outside < 0) << p.transpose();
@@ -212,10 +206,10 @@ TEST(TriangleTree, InsideAgreesWithTheFullWindingNumber) {
   TriangleMesh open = closed;
   open.triangles.resize(open.triangles.size() * 3 / 4);
   const TriangleTree closed_tree(closed), open_tree(open);
-  std::mt19937_64 random(12);
+  test::Random random(12);
   int inside = 0;
   for (int i = 0; i < 3000; ++i) {
-    const Vector3d p = randomPoint(random, 1.5);
+    const Vector3d p = test::pointInCube(random, 1.5);
     const double whole = test::windingNumber(closed, p), part = test::windingNumber(open, p);
     EXPECT_EQ(closed_tree.inside(p, TriangleTree::Inside::kNotZero), std::abs(whole) > 0.5);
     inside += std::abs(whole) > 0.5;
@@ -268,14 +262,15 @@ TEST(TriangleTree, BadMeshesAreRefused) {
 }
 
 TEST(Triangle, ClosestPointAgreesWithDenseSampling) {
-  std::mt19937_64 random(8);
+  test::Random random(8);
   for (int i = 0; i < 300; ++i) {
-    const Vector3d a = randomPoint(random, 1), b = randomPoint(random, 1);
+    const Vector3d a = test::pointInCube(random, 1), b = test::pointInCube(random, 1);
     // From fat triangles to needles to a segment.
-    const Vector3d c = i % 3 == 0   ? randomPoint(random, 1)
-                       : i % 3 == 1 ? Vector3d(a + 0.4 * (b - a) + std::pow(10.0, -i / 20) * randomPoint(random, 1))
-                                    : Vector3d(a + 0.4 * (b - a));
-    const Vector3d p = randomPoint(random, 2);
+    const Vector3d c = i % 3 == 0 ? test::pointInCube(random, 1)
+                       : i % 3 == 1
+                           ? Vector3d(a + 0.4 * (b - a) + std::pow(10.0, -i / 20) * test::pointInCube(random, 1))
+                           : Vector3d(a + 0.4 * (b - a));
+    const Vector3d p = test::pointInCube(random, 2);
     const double found = (closestOnTriangle({a, b, c}, p) - p).norm();
     double sampled = kInfinity;
     constexpr int n = 60;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <random>
 
 #include "field/uniform/sparse_grid.h"
 #include "monitor/scene_case.h"

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "monitor/scene_case.h"
+#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
@@ -13,7 +15,7 @@ using namespace test;
 class Wanderers {
  public:
   Wanderers(int count, unsigned seed) : random_(seed) {
-    for (int i = 0; i < count; ++i) X_.push_back(randomPose(random_, 0.6));
+    for (int i = 0; i < count; ++i) X_.push_back(pose(random_, 3.0, 0.6));
   }
 
   CycleMotion next() {
@@ -34,7 +36,7 @@ class Wanderers {
   }
 
  private:
-  std::mt19937 random_;
+  Random random_;
   std::vector<Isometry3d> X_;
 };
 
@@ -48,7 +50,7 @@ TEST(ClearanceSkip, GivesTheVerdictsOfTesting) {
   Monitor skipping(scene, {}), testing(scene, {});
   Wanderers wanderers(4, 1);
   int skipped = 0, near = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 800; ++i) {
     const CycleMotion motion = wanderers.next();
     testing.reset();
     const CycleResult &a = skipping.run(motion, {}), &b = testing.run(motion, {});

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "monitor/scene_case.h"
+#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
@@ -86,7 +87,7 @@ TEST(Monitor, QuarterTurnWithinOneCycle) {
 }
 
 TEST(Monitor, ResultsDoNotDependOnThreads) {
-  std::mt19937 random(9);
+  Random random(9);
   std::vector<BodyDescription> bodies;
   for (int i = 0; i < 6; ++i) bodies.push_back(body("b" + std::to_string(i), Primitive(Box{{0.1, 0.08, 0.05}})));
   const auto scene = build(bodies, fine(0.02));
@@ -94,7 +95,7 @@ TEST(Monitor, ResultsDoNotDependOnThreads) {
   for (int i = 0; i < 10; ++i) {
     std::vector<std::vector<Isometry3d>> poses;
     for (int b = 0; b < 6; ++b) {
-      const Isometry3d X = randomPose(random, 0.25);
+      const Isometry3d X = pose(random, 3.0, 0.25);
       poses.push_back({X, X * pose({0.05, 0, 0}, 0.3, {1, 1, 0})});
     }
     const CycleMotion motion = cycle(0.1, poses);
@@ -164,14 +165,14 @@ TEST(Monitor, CyclesDoNotDependOnThreads) {
   const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);  // also on a smaller machine
   for (const CycleRequest& request : {CycleRequest{true, 3, true, true}, CycleRequest{false, 0, false, false}}) {
     std::array<Monitor, 3> monitors = {Monitor(scene, soft()), Monitor(scene, soft()), Monitor(scene, soft())};
-    std::mt19937 random(11);
+    Random random(11);
     std::vector<Isometry3d> X_WB(bodies.size(), Isometry3d::Identity()), step = X_WB;
     int contacts = 0;
     for (int i = 0; i < 60; ++i) {
       std::vector<std::vector<Isometry3d>> poses;
       for (std::size_t b = 0; b < bodies.size(); ++b) {
-        if (b > 0 && i % 20 == 0) X_WB[b] = randomPose(random, 0.35);
-        if (b > 0 && i % 20 == 0) step[b] = pose(randomPose(random, 0.01).translation(), 0.05, {1, 1, 0});
+        if (b > 0 && i % 20 == 0) X_WB[b] = pose(random, 3.0, 0.35);
+        if (b > 0 && i % 20 == 0) step[b] = pose(pose(random, 3.0, 0.01).translation(), 0.05, {1, 1, 0});
         poses.push_back({X_WB[b], X_WB[b] * step[b]});
         X_WB[b] = poses.back().back();
       }
@@ -208,10 +209,10 @@ TEST(Monitor, MotionErrorBeyondTheBandNeverMakesContact) {
                             body("bead", Primitive(Sphere{0.005}))},
                            options);
   Monitor monitor(scene, soft());
-  std::mt19937 random(3);
+  Random random(3);
   int deep = 0;
   for (int i = 0; i < 200; ++i) {
-    const Vector3d p = randomPose(random, 0.25).translation();
+    const Vector3d p = pose(random, 3.0, 0.25).translation();
     CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), still(translation(p))});
     motion.motion_error = {0.0, p.norm()};
     monitor.reset();

@@ -86,7 +86,7 @@ TEST(MonitorWrench, MomentsAreAboutBothOrigins) {
 }
 
 TEST(MonitorWrench, ActionEqualsReactionAboutOnePoint) {
-  std::mt19937 random(2);
+  Random random(2);
   const auto scene =
       build({body("a", Primitive(Box{{0.1, 0.15, 0.05}})), body("b", Primitive(Cylinder{0.08, 0.1}))}, fine(0.04));
   MonitorOptions options = soft();
@@ -95,8 +95,8 @@ TEST(MonitorWrench, ActionEqualsReactionAboutOnePoint) {
   int contacts = 0;
   for (int i = 0; i < 50; ++i) {
     const Isometry3d far = translation({3, 4, 5});
-    const CycleMotion motion = cycle(0.1, {{far * randomPose(random, 0.1), far * randomPose(random, 0.1)},
-                                           {far * randomPose(random, 0.1), far * randomPose(random, 0.1)}});
+    const CycleMotion motion = cycle(0.1, {{far * pose(random, 3.0, 0.1), far * pose(random, 3.0, 0.1)},
+                                           {far * pose(random, 3.0, 0.1), far * pose(random, 3.0, 0.1)}});
     const PairResult& pair = monitor.run(motion, {}).pairs[0];
     contacts += pair.verdict == Verdict::kContact;
     const Vector3d p_A = motion.X_WB[0][1].translation(), p_B = motion.X_WB[1][1].translation();
@@ -110,7 +110,7 @@ TEST(MonitorWrench, ActionEqualsReactionAboutOnePoint) {
 }
 
 TEST(MonitorWrench, TheWorldsFrameDoesNotMatter) {
-  std::mt19937 random(4);
+  Random random(4);
   const auto scene =
       build({body("a", Primitive(Box{{0.1, 0.15, 0.05}})), body("b", Primitive(Cylinder{0.08, 0.1}))}, fine(0.04));
   MonitorOptions options = soft();
@@ -118,8 +118,8 @@ TEST(MonitorWrench, TheWorldsFrameDoesNotMatter) {
   Monitor here(scene, options), there(scene, options);
   for (int i = 0; i < 30; ++i) {
     const CycleMotion motion = cycle(
-        0.1, {{randomPose(random, 0.2), randomPose(random, 0.2)}, {randomPose(random, 0.2), randomPose(random, 0.2)}});
-    const Isometry3d X_VW = randomPose(random, 1000.0);
+        0.1, {{pose(random, 3.0, 0.2), pose(random, 3.0, 0.2)}, {pose(random, 3.0, 0.2), pose(random, 3.0, 0.2)}});
+    const Isometry3d X_VW = pose(random, 3.0, 1000.0);
     CycleMotion moved = motion;
     for (auto& poses : moved.X_WB)
       for (Isometry3d& X : poses) X = X_VW * X;

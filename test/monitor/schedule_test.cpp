@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "monitor/scene_case.h"
+#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
@@ -18,7 +20,7 @@ constexpr int kBalls = 5;
 class Arrivals {
  public:
   explicit Arrivals(unsigned seed, std::size_t pairs) : random_(seed), pairs_(pairs) {
-    for (int i = 0; i < kBalls; ++i) X_.push_back(randomPose(random_, 0.5));
+    for (int i = 0; i < kBalls; ++i) X_.push_back(pose(random_, 3.0, 0.5));
   }
 
   CycleMotion next() {
@@ -57,7 +59,7 @@ class Arrivals {
   double u() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random_); }
   Vector3d direction() { return {u(), u(), u()}; }
 
-  std::mt19937 random_;
+  Random random_;
   std::size_t pairs_;
   std::vector<Isometry3d> X_;
 };

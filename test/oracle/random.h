@@ -19,9 +19,14 @@ inline Vector3d uniformIn(Random& random, const AlignedBox3d& box) {
   return p;
 }
 
+/// In the cube around the origin whose sides are 2 `half_side` long.
+inline Vector3d pointInCube(Random& random, double half_side) {
+  return uniformIn(random, {Vector3d::Constant(-half_side), Vector3d::Constant(half_side)});
+}
+
 inline Vector3d direction(Random& random) {
   for (;;) {
-    const Vector3d v = uniformIn(random, {Vector3d::Constant(-1), Vector3d::Constant(1)});
+    const Vector3d v = pointInCube(random, 1.0);
     if (v.squaredNorm() > 1e-4 && v.squaredNorm() <= 1.0) return v.normalized();
   }
 }
