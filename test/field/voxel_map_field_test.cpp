@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "field/voxel_field.h"
+#include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"
@@ -196,7 +197,7 @@ TEST_P(VoxelMapField, IsExactAtTheLatticeAndOffByNoMoreThanItSays) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CellsPerVoxel, VoxelMapField, ::testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(CellsPerVoxel, VoxelMapField, ::testing::Values(1, 2, 3), test::ParameterName());
 
 TEST(VoxelMapField, OtherCellsAreNotOfALattice) {
   Random random(6);
