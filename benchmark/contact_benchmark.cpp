@@ -9,7 +9,7 @@
 #include <fcl/narrowphase/collision.h>
 
 #include "fcl_model.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "study.h"
 

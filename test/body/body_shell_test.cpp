@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "monitor/scene_case.h"
+#include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "shell/contact_gap.h"
 #include "shell/sample_surface.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "contact/contact_case.h"
+#include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "oracle/sampled_function.h"
 #include "sdf_ccd/field/build_field.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd::test {
+
+constexpr std::uint32_t kFieldVersion = 9;  ///< of the files of fields
 
 /// A mesh, options of its fields, and a directory for their files.
 class FieldFileCase : public testing::Test {

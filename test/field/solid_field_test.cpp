@@ -3,7 +3,6 @@
 #include "field/signed_surface.h"
 #include "oracle/box_union.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd {
 namespace {
@@ -39,21 +38,6 @@ TEST(FieldOfASolid, DepthIsThatInOverlappingPartsTogether) {
     const FieldSample deep = field.sample({0.25, 0.1, 0.1});
     EXPECT_NEAR(deep.value, -0.2, deep.error);
     EXPECT_LT(deep.value + deep.error, -0.02);
-  }
-}
-
-TEST(FieldOfASolid, NothingIsCrossedWhereFacesLieInside) {
-  FieldOptions options;
-  options.max_error = 4e-3;
-  const DistanceField field = buildField(overlappingBoxes(), options);
-  Random random(2);
-  for (int i = 0; i < 1000; ++i) {
-    const AlignedBox3d within(Vector3d(-0.74, -0.29, -0.29), Vector3d(0.74, 0.29, 0.29));
-    const Segment segment{test::uniformIn(random, within), test::uniformIn(random, within)};
-    const Intervals inside = segmentIntervals(field, segment);
-    ASSERT_EQ(inside.size(), 1U);
-    EXPECT_EQ(inside[0].enter, 0.0);
-    EXPECT_EQ(inside[0].exit, 1.0);
   }
 }
 

@@ -3,13 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "oracle/open_shapes.h"
-#include "oracle/parameter_name.h"
 #include "oracle/random.h"
-#include "oracle/test_data.h"
 #include "oracle/winding_number.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -179,27 +176,6 @@ TEST(Openings, ASheetIsCappedByItself) {
   EXPECT_EQ(openings.caps.triangles.size(), 2U);
   EXPECT_LE(largestReach(openings), 1e-12);
 }
-
-class RealOpenings : public testing::TestWithParam<const char*> {};
-
-TEST_P(RealOpenings, AreClosed) {
-  SDF_CCD_NEEDS_DATA(GetParam());
-  const TriangleMesh mesh = orientOutward(loadMesh(test::dataPath(GetParam()))).mesh;
-  const Openings openings = findOpenings(mesh);
-  EXPECT_TRUE(isClosed(closedMesh(mesh, openings)));
-  EXPECT_LT(openings.doubt, 0.05) << summary(openings);
-  RecordProperty("openings", summary(openings));
-}
-
-INSTANTIATE_TEST_SUITE_P(, RealOpenings,
-                         testing::Values("meshes/stanford-bunny.obj", "meshes/teapot.obj",
-                                         "meshes/dragon_vrip_res4.ply",
-                                         "robots/pr2_description/urdf/meshes/shoulder_v0/shoulder_lift.stl",
-                                         "robots/pr2_description/urdf/meshes/torso_v0/torso_lift.stl",
-                                         "robots/pr2_description/urdf/meshes/base_v0/base.stl",
-                                         "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl",
-                                         "robots/pr2_description/urdf/meshes/head_v0/head_tilt.stl"),
-                         test::ParameterName());
 
 }  // namespace
 }  // namespace sdf_ccd

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "allocations.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd {

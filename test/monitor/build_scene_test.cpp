@@ -7,8 +7,8 @@
 #include <random>
 
 #include "field/uniform/sparse_grid.h"
-#include "monitor/scene_case.h"
 #include "oracle/files.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "cancel_moments.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "monitor/contact_tracker.h"
-#include "monitor/scene_case.h"
 #include "oracle/drawn_meshes.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include "monitor/scene_case.h"
 #include "monitor/tracker_case.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "monitor/contact_tracker.h"
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

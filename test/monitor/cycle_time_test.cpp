@@ -1,8 +1,8 @@
 // Cycles that are ended by CycleRequest::max_time. Expected values: exact distances of balls.
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "monitor/join_results.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

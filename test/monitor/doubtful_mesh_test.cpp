@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 

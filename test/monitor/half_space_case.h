@@ -1,6 +1,6 @@
 #pragma once
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd::test {
 

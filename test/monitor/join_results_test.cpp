@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

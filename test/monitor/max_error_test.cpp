@@ -7,9 +7,9 @@
 
 #include "body/mesh_pool.h"
 #include "model/error_budget.h"
-#include "monitor/scene_case.h"
 #include "monitor/scene_cost.h"
 #include "oracle/failure.h"
+#include "oracle/scene_case.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd {

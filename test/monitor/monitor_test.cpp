@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
 #include "oracle/open_shapes.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

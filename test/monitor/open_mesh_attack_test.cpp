@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/triangle_distance.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "body/body_surface.h"
-#include "monitor/scene_case.h"
 #include "oracle/open_shapes.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {
@@ -173,6 +173,14 @@ TEST(ScenePlan, LargeBoxKeepsItsEdges) {
   EXPECT_FALSE(plan.pairs[0].b_edges_only);
   EXPECT_EQ(which(plan, &BodyNeeds::edges_only), (std::vector<bool>{true, false}));
   EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large; the shells of smaller bodies suffice");
+}
+
+TEST(ScenePlan, TableNamesLinksThatAreOnlySeen) {
+  SceneDescription description{{body("a", kBall)}, {}};
+  description.visual_only = {"cover", "lid"};
+  const std::string table = planTable(*build(description));
+  EXPECT_NE(table.find("not checked, as they have a visual but no collision shape:\n  cover lid\n"), std::string::npos)
+      << table;
 }
 
 }  // namespace

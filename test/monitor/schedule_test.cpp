@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 /// Bodies of several parts for which no shell can be made: a part wholly inside another body must be detected.
 namespace sdf_ccd {

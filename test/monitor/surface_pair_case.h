@@ -1,6 +1,6 @@
 #pragma once
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 
 /// Pairs whose fields and shells are too coarse to decide.
 namespace sdf_ccd::test {

@@ -5,8 +5,8 @@
 #include <deque>
 #include <memory>
 
-#include "monitor/scene_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
 

@@ -6,10 +6,10 @@
 #include <chrono>
 #include <filesystem>
 
-#include "monitor/scene_case.h"
 #include "monitor/voxel_case.h"
 #include "oracle/files.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/monitor/world.h"
 

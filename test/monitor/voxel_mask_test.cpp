@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
-#include "monitor/scene_case.h"
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {

@@ -1,10 +1,10 @@
 // Verdicts about voxel maps against exact distances to boxes.
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
 #include "monitor/scene_cost.h"
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <thread>
 
-#include "monitor/scene_case.h"
 #include "monitor/voxel_mask.h"
 #include "oracle/random.h"
+#include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {

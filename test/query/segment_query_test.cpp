@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "oracle/box_union.h"
 #include "oracle/random_segment.h"
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
@@ -291,6 +292,24 @@ TEST(SegmentQuery, SegmentsOfAnyLengthMeetTheBodyTheyPassThrough) {
         }
       }
     }
+  }
+}
+
+/// Two boxes of one mesh overlap by half: what is inside both is no surface.
+TEST(SegmentQuery, NothingIsCrossedWhereFacesOfASolidLieInside) {
+  const TriangleMesh boxes =
+      test::meshOf({test::boxAt({-0.25, 0, 0}, {0.5, 0.3, 0.3}), test::boxAt({0.25, 0, 0}, {0.5, 0.3, 0.3})});
+  FieldOptions options;
+  options.max_error = 4e-3;
+  const DistanceField field = buildField(boxes, options);
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const AlignedBox3d within(Vector3d(-0.74, -0.29, -0.29), Vector3d(0.74, 0.29, 0.29));
+    const Segment segment{test::uniformIn(random, within), test::uniformIn(random, within)};
+    const Intervals inside = segmentIntervals(field, segment);
+    ASSERT_EQ(inside.size(), 1U);
+    EXPECT_EQ(inside[0].enter, 0.0);
+    EXPECT_EQ(inside[0].exit, 1.0);
   }
 }
 

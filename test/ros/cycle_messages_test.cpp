@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "ros/loop_case.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf_messages.h"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "common/number_text.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "ros/messages/link_markers.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/messages/shape_marker.h"

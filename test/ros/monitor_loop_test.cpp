@@ -7,8 +7,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "monitor/scene_case.h"
 #include "oracle/busy_machine.h"
+#include "oracle/scene_case.h"
 #include "ros/loop_case.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf_messages.h"
 

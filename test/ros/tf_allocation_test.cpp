@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "allocations.h"
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "ros/described_world.h"
 #include "ros/messages/message_pool.h"
 #include "ros/monitor/cycle_messages.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <random>
 
-#include "monitor/scene_case.h"
+#include "oracle/scene_case.h"
 #include "ros/described_world.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/monitor_loop.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/contact_case.h"
+#include "oracle/contact_case.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd::test {
