@@ -14,8 +14,8 @@ int main() {
   const DistanceField field = buildField(tessellate(Sphere{kRadius}, 1e-4), wanted);
 
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> place(-0.5, 0.5);
-  const auto draw = [&] { return Vector3d(place(random), place(random), place(random)); };
+  std::uniform_real_distribution<double> coordinate(-0.5, 0.5);
+  const auto draw = [&] { return Vector3d(coordinate(random), coordinate(random), coordinate(random)); };
   std::vector<Segment> moves(10'000);
   for (Segment& move : moves) move = {draw(), draw()};
 
@@ -28,9 +28,9 @@ int main() {
     const bool is_free = segmentIntervals(field, move, options).empty();
     free += is_free;
     // The exact distance to a sphere is known.
-    const Vector3d way = move.end - move.start;
-    const double t = std::min(1.0, std::max(0.0, -move.start.dot(way) / way.squaredNorm()));
-    if (is_free && (move.start + t * way).norm() < kRadius - 1e-4 + kTip) ++wrong;
+    const Vector3d displacement = move.end - move.start;
+    const double t = std::min(1.0, std::max(0.0, -move.start.dot(displacement) / displacement.squaredNorm()));
+    if (is_free && (move.start + t * displacement).norm() < kRadius - 1e-4 + kTip) ++wrong;
   }
   std::printf("%zu of %zu moves are free\n", free, moves.size());
 

@@ -21,8 +21,8 @@ int main(int argc, char** argv) {
 
   // A segment through the centre of the mesh; it starts and ends half the mesh's size outside.
   const AlignedBox3d box = field.surfaceBox();
-  const Vector3d way(box.sizes().x(), 0.0, 0.0);
-  const Intervals inside = segmentIntervals(field, {box.center() - way, box.center() + way});
+  const Vector3d half_path(box.sizes().x(), 0.0, 0.0);
+  const Intervals inside = segmentIntervals(field, {box.center() - half_path, box.center() + half_path});
   for (const Interval& interval : inside) std::printf("inside from %.6f to %.6f\n", interval.enter, interval.exit);
 
   if (argc > 1) return 0;

@@ -5,7 +5,7 @@
 namespace sdf_ccd {
 
 /// Adds the times at which no point of a shell is inside, but the surfaces cross: edges do so between points. A contact
-/// then lasts from cycle to cycle, whether its points feel it or not.
+/// then lasts from cycle to cycle, with or without shell points inside.
 ///
 /// Before the intervals, after them, and in each gap between them, some times are tested in turn from both ends, up to
 /// the first at which no crossing is certain. Between two such times at which surfaces cross they are taken to cross.

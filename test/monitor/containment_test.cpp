@@ -65,7 +65,7 @@ TEST(Containment, WhatIsInsideByLessThanTheFieldsErrorIsAContact) {
   }
 }
 
-/// Where no point feels that, the contact is the point that proves it; within the span.
+/// Without shell points inside, the contact is the point that proves it; within the span.
 TEST(Containment, WhatNoPointFeelsInsideHasAPlaceAndANormal) {
   const TriangleMesh wall = boxMesh({1.0, 1.0, 0.004});
   BodyOptions options = coarse();

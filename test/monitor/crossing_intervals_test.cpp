@@ -52,7 +52,7 @@ TEST_F(CrossedRods, BetweenPointsTheyAreAsDeepAsTheErrorAllows) {
   EXPECT_GT(without_depth, 0);
 }
 
-/// No shell point feels them, and they part halfway through the third cycle: one contact from the first cycle's begin
+/// No shell point is inside, and they part halfway through the third cycle: one contact from the first cycle's begin
 /// to then.
 TEST_F(CrossedRods, AContactLastsAsLongAsTheSurfacesCross) {
   Monitor monitor(rods(), soft());
@@ -60,7 +60,7 @@ TEST_F(CrossedRods, AContactLastsAsLongAsTheSurfacesCross) {
   for (int i = 0; i < 2; ++i) {
     const PairResult lasts = between(kOverlap, kOverlap);
     ASSERT_EQ(lasts.verdict, Verdict::kContact);
-    ASSERT_EQ(lasts.deepest.depth, 0.0) << "a shell point feels it";
+    ASSERT_EQ(lasts.deepest.depth, 0.0) << "a shell point is inside";
     EXPECT_GE(lasts.deepest.depth_error, kOverlap / std::sqrt(2.0));
     ASSERT_EQ(lasts.intervals.size(), 1u);
     EXPECT_EQ(lasts.intervals[0].enter, 0.0);
@@ -112,7 +112,7 @@ TEST_F(CrossedRods, CrossingsThatPartWithinACycleAreSeveral) {
   Monitor monitor(rods(), soft());
   const PairResult pair = run(monitor, {across(kOverlap), across(-20.0 * kOverlap), across(kOverlap)});
   ASSERT_EQ(pair.verdict, Verdict::kContact);
-  ASSERT_EQ(pair.deepest.depth, 0.0) << "a shell point feels it";
+  ASSERT_EQ(pair.deepest.depth, 0.0) << "a shell point is inside";
   ASSERT_EQ(pair.intervals.size(), 2u);
   EXPECT_EQ(pair.intervals[0].enter, 0.0);
   EXPECT_LT(pair.intervals[0].exit, 0.05);
@@ -120,8 +120,8 @@ TEST_F(CrossedRods, CrossingsThatPartWithinACycleAreSeveral) {
   EXPECT_EQ(pair.intervals[1].exit, 0.1);
 }
 
-/// In one cycle a rod goes through a block, and through the corner of a plate of the same body, which no point feels.
-/// The plate's corner is at 0.778 to 0.787 s, the block at 0.304 to 0.392 s.
+/// In one cycle a rod goes through a block, and through the corner of a plate of the same body, without shell points
+/// inside. The plate's corner is at 0.778 to 0.787 s, the block at 0.304 to 0.392 s.
 TEST(HiddenCrossing, IsToldBesideAContactThatPointsFeel) {
   const double half = 0.0007, inside = 0.004;
   const Vector3d corner(0.125, 0.125, 0.0), along = Vector3d(1, -1, 0).normalized(),

@@ -214,7 +214,7 @@ TEST(HalfSpacePair, NeedsNoInside) {
   EXPECT_EQ(fall.run(still(Isometry3d::Identity()), still(translation({0, 0, -1.0}))).verdict, Verdict::kContact);
 }
 
-/// The deepest place of the surface, also where no point of the shell is.
+/// The deepest point of the surface, also where no point of the shell is.
 TEST(HalfSpacePair, DepthsAreExactIfRefined) {
   Random random(7);
   CycleRequest request;

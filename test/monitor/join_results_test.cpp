@@ -29,7 +29,7 @@ CycleMotion piece(const CycleMotion& whole, std::size_t first, std::size_t last)
   return motion;
 }
 
-/// In the first piece a point only touches; in the second one the surfaces cross where no point feels it.
+/// In the first piece a point only touches; in the second one the surfaces cross without shell points inside.
 TEST(ResultJoiner, TheBoundOfAHiddenDepthIsKept) {
   const CycleMotion motion = cycle(1.0, {still(Isometry3d::Identity()), still(Isometry3d::Identity())});
   ResultJoiner joiner(5);

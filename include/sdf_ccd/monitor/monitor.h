@@ -86,7 +86,7 @@ struct PairResult {
   Wrench on_a_W;  ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;  ///< the same on B, about B's origin
   std::vector<ContactPoint> points;
-  /// Of each interval that points feel the deepest one, of others a crossing of the surfaces; in any order.
+  /// Of each interval with shell points inside the deepest one, of others a crossing of the surfaces; in any order.
   std::vector<ContactPoint> peaks;
 };
 

@@ -151,7 +151,7 @@ std::string CycleStatistics::contactLines(const ros::Time& begin) const {
   std::vector<std::string> items;
   for (const Contact& contact : contacts_.contacts()) {
     if (contact.verdict != Contact::CONTACT) continue;
-    // Of a contact that no point of a shell feels, no depth is known.
+    // Of a contact without shell points no depth is known.
     const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
     const double depth = is_felt ? contact.deepest.depth : contact.deepest.depth_error;
     items.push_back(pairName(contact.body_a, contact.body_b) + ": at " + secondsAfter(begin, contact.begin) + " for " +
