@@ -20,15 +20,21 @@ template <class T>
 class SharedValue {
  public:
   SharedValue() : value_(empty()) {}
+  /// Holds the value; without one, a default value.
   SharedValue(T value) : value_(std::make_shared<const T>(std::move(value))) {}
 
-  // Copied, never moved: a moved-from object keeps its value.
+  /// Copied, never moved: a moved-from object keeps its value.
+  ///@{
   SharedValue(const SharedValue&) = default;
   SharedValue& operator=(const SharedValue&) = default;
+  ///@}
 
+  /// The value; a reference to it holds while this or a copy exists.
+  ///@{
   const T& operator*() const { return *value_; }
   const T* operator->() const { return value_.get(); }
   operator const T&() const { return *value_; }
+  ///@}
 
  private:
   static const std::shared_ptr<const T>& empty() {
@@ -92,8 +98,8 @@ struct BodyReport {
   double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
   std::size_t shell_bytes = 0;  ///< with the triangles that decide verdicts
-  std::size_t witnesses = 0;  ///< Body::witnesses
-  double gap = 0.0;           ///< between its shell's points, for a pair of equal shells [m]
+  std::size_t witnesses = 0;    ///< Body::witnesses
+  double gap = 0.0;             ///< between its shell's points, for a pair of equal shells [m]
   std::size_t pairs = 0;
   ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow
   std::string solid;  ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
@@ -105,10 +111,14 @@ struct BodyReport {
 /// returns the same pointer.
 class BodyList {
  public:
+  /// A body as lists share it.
   using Shared = std::shared_ptr<const Body>;
 
+  /// A forward iterator over bodies, not over pointers to them.
   class const_iterator {
    public:
+    /// As of any forward iterator.
+    ///@{
     using iterator_category = std::forward_iterator_tag;
     using value_type = Body;
     using difference_type = std::ptrdiff_t;
@@ -123,16 +133,20 @@ class BodyList {
     const_iterator operator++(int) { return const_iterator(at_++); }
     bool operator==(const const_iterator& other) const { return at_ == other.at_; }
     bool operator!=(const const_iterator& other) const { return at_ != other.at_; }
+    ///@}
 
    private:
     std::vector<Shared>::const_iterator at_;
   };
 
   BodyList() = default;
+  /// Of these bodies, which no other list shares yet.
   explicit BodyList(std::vector<Body> bodies) {
     for (Body& body : bodies) push_back(std::move(body));
   }
 
+  /// As of a std::vector<const Body>.
+  ///@{
   std::size_t size() const { return bodies_.size(); }
   bool empty() const { return bodies_.empty(); }
   const Body& operator[](std::size_t i) const { return *bodies_[i]; }
@@ -140,10 +154,16 @@ class BodyList {
   const Body& back() const { return *bodies_.back(); }
   const_iterator begin() const { return const_iterator(bodies_.begin()); }
   const_iterator end() const { return const_iterator(bodies_.end()); }
+  ///@}
+
+  /// The body itself, to be put into another list.
   const Shared& shared(std::size_t i) const { return bodies_[i]; }
 
+  /// Adds a body: a new one, or one that other lists hold, too.
+  ///@{
   void push_back(Body body) { bodies_.push_back(std::make_shared<const Body>(std::move(body))); }
   void push_back(Shared body) { bodies_.push_back(std::move(body)); }
+  ///@}
 
  private:
   std::vector<Shared> bodies_;

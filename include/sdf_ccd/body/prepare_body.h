@@ -22,6 +22,7 @@ struct BodyNeeds {
   bool triangles = false;   ///< Body::triangles
   bool surface = false;     ///< Body::surface
 
+  /// Whether field, shell or witnesses are needed.
   bool any() const { return field || shell || witnesses; }
 };
 
@@ -71,7 +72,9 @@ struct BodyOptions {
 BodyOptions optionsForContacts(const std::optional<double>& accuracy = {});
 
 /// Limits of a body's field and shell, whatever the required accuracy.
+///@{
 constexpr std::size_t kMaxFieldBytes = std::size_t{256} << 20, kMaxShellPoints = 3'000'000;
+///@}
 
 /// The options that meet an accuracy: its max_error is divided among field, edges and motions as 55 : 35 : 9, with the
 /// limits kMaxFieldBytes and kMaxShellPoints.

@@ -11,6 +11,7 @@ struct Cancelled {};
 
 /// The conditions that end a thread's work: a flag, null if there is none, and a time.
 struct CancelRequest {
+  /// Of deadlines: never set back.
   using Clock = std::chrono::steady_clock;
 
   const std::atomic<bool>* asked = nullptr;
@@ -24,6 +25,7 @@ class CancelPoint {
  public:
   CancelPoint();
 
+  /// Whether the work is to end: the flag is set, or the deadline has passed.
   bool asked() const {
     if (request_.asked && request_.asked->load(std::memory_order_relaxed)) return true;
     constexpr auto kNever = CancelRequest::Clock::time_point::max();
@@ -35,6 +37,7 @@ class CancelPoint {
     if (asked()) throw Cancelled();
   }
 
+  /// What ends this work.
   const CancelRequest& request() const { return request_; }
 
  private:
@@ -50,6 +53,7 @@ class CancelScope {
  public:
   /// @param asked  must outlive the scope.
   explicit CancelScope(const std::atomic<bool>& asked);
+  /// The flag of an outer scope stays.
   explicit CancelScope(CancelRequest::Clock::time_point deadline);
 
   /// For a task on another thread: exactly what cancels the work at `point` cancels this task.

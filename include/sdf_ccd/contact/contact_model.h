@@ -10,6 +10,7 @@ struct Wrench {
   Vector3d force = Vector3d::Zero();
   Vector3d torque = Vector3d::Zero();
 
+  /// Adds a wrench about the same point, in the same axes.
   Wrench& operator+=(const Wrench& other) {
     force += other.force;
     torque += other.torque;
@@ -17,6 +18,7 @@ struct Wrench {
   }
 };
 
+/// Scales force and torque.
 inline Wrench operator*(double factor, const Wrench& w) {
   return {factor * w.force, factor * w.torque};
 }
@@ -27,9 +29,23 @@ inline Wrench expressedIn(const Isometry3d& X_CB, const Wrench& w_C) {
   return {R_BC * w_C.force, R_BC * (w_C.torque - X_CB.translation().cross(w_C.force))};
 }
 
-enum class StiffnessPer { kArea, kPoint };
-enum class NormalSource { kField, kShell };
-enum class Quadrature { kExact, kMidpoint };
+/// What stiffness and damping of a shell point are multiplied by.
+enum class StiffnessPer {
+  kArea,  ///< the area that the point represents: forces do not depend on the number of points
+  kPoint  ///< nothing (the paper): forces grow with the number of points
+};
+
+/// The direction of a point's force.
+enum class NormalSource {
+  kField,  ///< the gradient of the field
+  kShell   ///< the point's own normal, inward
+};
+
+/// How forces are integrated over the time of a contact.
+enum class Quadrature {
+  kExact,    ///< Gauss's rule between the faces of the field's cells
+  kMidpoint  ///< the paper's rule, with ContactOptions::midpoint_intervals
+};
 
 /// The contact model (paper §4).
 struct ContactOptions {

@@ -88,6 +88,7 @@ struct RigidWorld {
 /// A simulation cannot go on: which body, at which step, why.
 class SimulationError : public std::runtime_error {
  public:
+  /// Joins the three to one sentence.
   SimulationError(const std::string& body, long step, const std::string& reason)
       : std::runtime_error("body `" + body + "`, step " + std::to_string(step) + ": " + reason) {}
 };

@@ -24,6 +24,7 @@ enum class Scheme {
   kImplicit
 };
 
+/// "continuous", "discrete" or "implicit".
 const char* toString(Scheme scheme);
 
 /// @throws std::invalid_argument for any other name.
@@ -44,6 +45,7 @@ struct StepRecord {
   int solves = 0;               ///< kImplicit: linear systems solved
   double run_time = 0.0;        ///< [s]
 
+  /// Of all kinds together [J].
   double energy() const { return kinetic + potential + elastic; }
 };
 
@@ -58,15 +60,21 @@ class Simulation {
   /// and for a body whose position, energy or momentum is out of range.
   Simulation(RigidWorld world, std::vector<BodyState> states, Scheme scheme, double step);
 
+  /// Moved, not copied.
+  ///@{
   Simulation(Simulation&& other) noexcept;
   Simulation& operator=(Simulation&& other) noexcept;
+  ///@}
   ~Simulation();
 
   /// @throws SimulationError if a body's state is out of range; states() and last() are then unchanged.
   const StepRecord& advance();
 
+  /// The world that is simulated.
   const RigidWorld& world() const { return *world_; }
+  /// Per body: its state at the end of the last step.
   const std::vector<BodyState>& states() const { return states_; }
+  /// The record of the last step; before the first one, of the start.
   const StepRecord& last() const { return record_; }
 
  private:

@@ -49,6 +49,7 @@ DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, 
 
 /// The same for an existing solid.
 DistanceField buildField(const Solid& solid, const FieldOptions& options, const Progress& progress = {});
+/// The same for a solid whose openings are closed, with its caps.
 DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress = {});
 
 }  // namespace sdf_ccd

@@ -42,15 +42,19 @@ struct DistanceBounds {
 /// also outside their box; "no data" is never zero.
 class DistanceField {
  public:
+  /// The exact distance to a primitive.
+  /// @throws std::invalid_argument if it is not valid.
   explicit DistanceField(const Primitive& primitive);
 
   /// @param openings  null where there are none.
   /// @param moved     see moved().
   /// @throws std::invalid_argument if there is no grid, or `moved` is not a distance.
+  ///@{
   explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
                          double moved = 0.0);
   explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
                          double moved = 0.0);
+  ///@}
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is local: that of the
   /// point's leaf, or of the samples around the point (see src/field/uniform/sample_bracket.h).
@@ -62,6 +66,7 @@ class DistanceField {
   /// Bounds of the true distance [m], anywhere; cheaper and wider than sample(). Outside the grid `high` is
   /// infinite.
   DistanceBounds bounds(const Vector3d& p_F) const;
+  /// The lower one of bounds() [m].
   double lowerBound(const Vector3d& p_F) const { return bounds(p_F).low; }
 
   /// Where |φ| ≤ band() the error is at most errorBound() [m]. Infinity for primitives.
@@ -90,6 +95,7 @@ class DistanceField {
   /// Encloses the surface [m]; infinite for a half-space.
   const AlignedBox3d& surfaceBox() const { return surface_box_; }
 
+  /// Memory that copies share: samples and caps.
   std::size_t bytes() const;
 
   /// Cells that hold samples; 0 for primitives.
@@ -99,9 +105,11 @@ class DistanceField {
   AlignedBox3d box() const;
 
   /// The representation, for queries: exactly one of the three is not null.
+  ///@{
   const Primitive* primitive() const;
   const SparseGrid* grid() const;
   const AdaptiveGrid* adaptive() const;
+  ///@}
 
  private:
   std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> representation_;

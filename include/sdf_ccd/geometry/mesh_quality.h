@@ -30,6 +30,7 @@ struct MeshQuality {
   bool sign_trusted = false;     ///< closed after orientation, and not doubtful: inside and outside are certain
 };
 
+/// A mesh as orientOutward() returns it, and what was found on the way.
 struct OrientedMesh {
   TriangleMesh mesh;
   MeshQuality quality;

@@ -7,14 +7,17 @@
 
 namespace sdf_ccd {
 
+/// All points within the radius of the origin.
 struct Sphere {
   double radius = 0.0;  ///< [m], about the origin
 };
 
+/// A cuboid with edges along the axes.
 struct Box {
   Vector3d half_size = Vector3d::Zero();  ///< [m], about the origin
 };
 
+/// A solid circular cylinder around z.
 struct Cylinder {
   double radius = 0.0;       ///< [m]
   double half_length = 0.0;  ///< [m], along z, about the origin

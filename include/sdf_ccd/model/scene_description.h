@@ -25,6 +25,7 @@ struct GeometryDescription {
   std::optional<DistanceField> field = {};
 };
 
+/// Whether the element is a half-space, which is unbounded.
 inline bool isHalfSpace(const GeometryDescription& geometry) {
   const auto* primitive = std::get_if<Primitive>(&geometry.shape);
   return primitive && isHalfSpace(*primitive);
@@ -40,6 +41,7 @@ struct BodyPlace {
   std::string map;                                ///< the map that the body is a tile of; empty if it is none
 };
 
+/// Whether all is equal, poses to the last bit.
 inline bool operator==(const BodyPlace& a, const BodyPlace& b) {
   return a.name == b.name && a.frame == b.frame && a.X_frame_B.matrix() == b.X_frame_B.matrix() &&
          a.failure == b.failure && a.is_world == b.is_world && a.map == b.map;
@@ -64,6 +66,7 @@ struct UncheckedPair {
   std::string reason;
 };
 
+/// Bodies, and the pairs of them that need no check.
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
   std::vector<AllowedPair> allowed;     ///< the allowed collision matrix: these pairs may collide and are not checked

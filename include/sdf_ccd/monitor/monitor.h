@@ -43,6 +43,7 @@ struct CycleRequest {
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
 
+  /// Whether contacts are computed, for themselves or for something else.
   bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
 };
 
@@ -60,6 +61,7 @@ struct ContactPoint {
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
 };
 
+/// What a cycle says about one pair.
 struct PairResult {
   int body_a = -1;
   int body_b = -1;
@@ -90,6 +92,7 @@ struct PairResult {
   std::vector<ContactPoint> peaks;
 };
 
+/// What a cycle says about all pairs.
 struct CycleResult {
   std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
   Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
@@ -105,8 +108,12 @@ struct CycleResult {
   double run_time = 0.0;  ///< [s]
 };
 
-constexpr double kMinMaxError = 1e-5, kLargestMaxError = 1e-2;  // [m]
+/// Range of MonitorOptions::max_error [m].
+///@{
+constexpr double kMinMaxError = 1e-5, kLargestMaxError = 1e-2;
+///@}
 
+/// How a Monitor checks; the same for all of its cycles.
 struct MonitorOptions {
   ContactOptions contact;
   ChordOptions chords;
@@ -120,6 +127,7 @@ struct MonitorOptions {
 /// Scratch memory of checks, which is reused. Several monitors that run at the same time may share it; its size depends
 /// on how many pairs are checked at the same time.
 struct MonitorMemory;
+/// For monitors that are to share it.
 std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
 class SceneDifference;
@@ -218,6 +226,7 @@ class Monitor {
   /// Forgets all clearances, as when time jumps.
   void reset();
 
+  /// The scene that the next cycle checks.
   const Scene& scene() const;
 
  private:
@@ -235,6 +244,8 @@ struct NearestBody {
   double error = 0.0;     ///< [m]
   Vector3d gradient_W = Vector3d::Zero();
 };
+/// The nearest body to a point p_W; bodies that could not be prepared are passed over.
+/// @param X_WB  per body of the scene.
 NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W);
 
 }  // namespace sdf_ccd

@@ -26,6 +26,7 @@ struct PlannedPair {
   bool b_witnesses_a_field = false;
 };
 
+/// A pair, field or shell that a plan leaves out.
 struct LeftOut {
   std::string what;  ///< "pair a - b", "shell of map", "field of ground"
   std::string reason;
@@ -45,6 +46,7 @@ struct ScenePlan {
   std::shared_ptr<const SceneCost> expected;
 };
 
+/// What a plan depends on besides the scene.
 struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
@@ -71,6 +73,7 @@ struct PlanOptions {
 /// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
+/// Bodies that are ready to be checked, and their pairs.
 struct Scene {
   BodyList bodies;
   std::vector<PlannedPair> pairs;

@@ -36,6 +36,8 @@ struct WorldSnapshot {
 /// A monitor switches to a snapshot by Monitor::prepare() and Monitor::adopt(). Not thread-safe: one thread at a time.
 class WorldEditor {
  public:
+  /// Without a world; see begin().
+  /// @param options  of all bodies that it builds.
   explicit WorldEditor(const BodyOptions& options);
   ~WorldEditor();
 

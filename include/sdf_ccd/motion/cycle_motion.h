@@ -15,6 +15,7 @@ struct WaypointSpan {
   std::size_t first = 0;
   std::size_t last = 0;
 
+  /// Whether it has no length: see CycleMotion::spans.
   bool empty() const { return first == last; }
 };
 

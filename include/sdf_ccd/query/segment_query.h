@@ -41,6 +41,7 @@ enum class SegmentMode {
   kAny,            ///< whether there is one: an interval of no length, somewhere in one
 };
 
+/// What is to be found on a segment.
 struct SegmentOptions {
   double sigma = 0.0;  ///< isovalue [m]; 0 is the surface
   SegmentMode mode = SegmentMode::kAll;
@@ -74,6 +75,7 @@ bool mayTouch(const DistanceField& field, const Segment& segment, double radius)
 /// The side of the surface on which the whole segment surely is.
 enum class SweptSide { kOutside, kInside, kUnknown };
 
+/// How far from the surface a segment must stay to be on one side of it.
 struct SweptMargins {
   double outside;  ///< outside: the true distance exceeds this [m]
   double inside;   ///< inside: it is below minus this [m]
@@ -96,6 +98,7 @@ struct SegmentHit {
   float exit;
 };
 
+/// Hits of many segments.
 struct BatchResult {
   std::vector<SegmentHit> hits;  ///< by segment, then by time
 };

@@ -10,6 +10,7 @@ enum class Verdict {
   kContact,     ///< touching at some time, even if the errors reach their bounds
 };
 
+/// "CLEAR", "NOT_CHECKED", "UNCERTAIN" or "CONTACT".
 const char* toString(Verdict verdict);
 
 /// Bounds of a verdict's errors, by source [m].

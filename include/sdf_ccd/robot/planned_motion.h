@@ -77,6 +77,7 @@ struct PlannedJoints {
   std::vector<std::string> missing;        ///< per link: why its pose in the root's frame is not known; empty if it is
 };
 
+/// What a plan may contain.
 struct PlanRules {
   bool allow_beyond_limits = false;  ///< accept positions beyond limits
 };

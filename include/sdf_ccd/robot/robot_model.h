@@ -25,7 +25,9 @@ class RobotModel {
   /// whose axis is zero or that mimics a missing joint or itself.
   explicit RobotModel(const std::string& urdf_xml, const std::string& source = {});
 
+  /// As the parser has read it.
   const urdf::ModelInterface& urdf() const { return *urdf_; }
+  /// Name of the root link.
   const std::string& root() const { return root_; }
 
   /// Links in depth-first order, the root first.
@@ -34,9 +36,10 @@ class RobotModel {
   /// A link's index in links(); −1 if it has none of that name.
   int find(const std::string& link) const;
 
-  /// Parent of a link, by its index in links(); −1 for the root. And the joint between the two, which all links
-  /// except the root have.
+  /// Parent of a link, by its index in links(); −1 for the root.
   int parent(int link) const { return parent_[link]; }
+
+  /// The joint between a link and its parent, by the link's index in links(); not of the root, which has none.
   const urdf::Joint& jointAbove(int link) const;
 
   /// The joint that a mimic joint follows in the end; for any other joint the joint itself.
@@ -97,6 +100,7 @@ class RobotModel {
     double low;
     double high;
   };
+  /// The prismatic joints between two links, with the ranges beyond which reach() does not hold.
   std::vector<Slide> slidesBetween(const std::string& link_a, const std::string& link_b) const;
 
   /// The joint position whose pose of the child link in the parent link's frame is closest to the given one [rad or m].

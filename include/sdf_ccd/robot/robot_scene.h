@@ -12,6 +12,7 @@
 
 namespace sdf_ccd {
 
+/// A file, as a ResourceLoader returns it.
 struct Resource {
   std::string bytes;
   std::string name;     ///< its extension gives the format
@@ -53,6 +54,7 @@ struct Srdf {
 /// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});
 
+/// Which pairs of links are checked.
 struct RobotSceneOptions {
   bool check_adjacent = false;  ///< also check links that a movable joint connects
 };

@@ -20,6 +20,7 @@ class MotionCheck {
               std::shared_ptr<MonitorMemory> = nullptr) = delete;
   ~MotionCheck();
 
+  /// Whether all pieces are checked.
   bool isDone() const;
 
   /// Checks the next piece, of some milliseconds, and returns its motion, which is valid until the next call.
@@ -28,6 +29,7 @@ class MotionCheck {
   /// The result of all checked pieces, and of pairs that the scene leaves out although they may meet. The pairs' spans
   /// are {0, 1}, the first and the last time of ends().
   CycleResult result() const;
+  /// The bodies' poses at the first and the last time checked.
   const CycleMotion& ends() const;
 
  private:

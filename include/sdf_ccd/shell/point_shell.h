@@ -22,6 +22,7 @@ struct PointShell {
   double edge_radius = std::numeric_limits<double>::infinity();
   double flatness = 0.0;
 
+  /// Number of points.
   std::size_t size() const { return points.size(); }
 };
 
@@ -41,6 +42,7 @@ struct ShellOptions {
 
 /// Bounding spheres over the points of a shell (paper §3.3), nested: each node's sphere holds all points below it.
 struct SphereTree {
+  /// A sphere around consecutive points.
   struct Node {
     Vector3d center;     ///< [m], frame P
     double radius;       ///< [m]
