@@ -80,6 +80,14 @@ inline ChordPath oneChord(double duration, const Isometry3d& X_FP_start, const I
   return {{{0.0, duration, X_FP_start, X_FP_end, 0}}, 0.0};
 }
 
+constexpr double kStiffness = 1e7;  // [N/m^3]
+
+inline ContactOptions perArea() {
+  ContactOptions options;
+  options.stiffness = kStiffness;
+  return options;
+}
+
 inline Primitive ground() {
   return HalfSpace{Vector3d::UnitZ(), 0.0};
 }

@@ -39,8 +39,6 @@ inline BodyOptions fine(double spacing = 0.01) {
   return options;
 }
 
-constexpr double kStiffness = 1e7;  // [N/m^3]
-
 /// A monitor's options with the stiffness kStiffness.
 inline MonitorOptions soft() {
   MonitorOptions options;

@@ -1,72 +1,16 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
 #include <array>
-#include <cmath>
 #include <map>
-#include <stdexcept>
 
-#include "oracle/failure.h"
-#include "oracle/files.h"
-#include "oracle/test_data.h"
+#include <gtest/gtest.h>
+
+#include "robot/robot_scene_case.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// One triangle, as an OFF file.
-const char* const kTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n";
-
-Resource loadOwn(const std::string& uri) {
-  if (uri == "good.off") return {kTriangle, uri, ""};
-  if (uri == "Good.OFF") return {kTriangle, uri, "Good.OFF: found good.off, the URI says Good.OFF"};
-  if (uri == "garbage.off") return {"OFF\nhello", uri, ""};
-  throw std::runtime_error(uri + ": no such file");
-}
-
-std::string mesh(const std::string& uri, const std::string& scale = "1 1 1") {
-  return "<collision><geometry><mesh filename='" + uri + "' scale='" + scale + "'/></geometry></collision>";
-}
-
-std::string box(const std::string& size, const std::string& xyz = "0 0 0") {
-  return "<collision><origin xyz='" + xyz + "' rpy='0 0 0'/><geometry><box size='" + size +
-         "'/></geometry></collision>";
-}
-
-std::string link(const std::string& name, const std::string& inside = "") {
-  return "<link name='" + name + "'>" + inside + "</link>";
-}
-
-std::string joint(const std::string& parent, const std::string& child, const std::string& type,
-                  const std::string& xyz) {
-  return "<joint name='" + parent + "_" + child + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
-         child + "'/><origin xyz='" + xyz + "'/><axis xyz='0 0 1'/></joint>";
-}
-
-/// a –continuous– b –continuous– c –fixed– d, each a box of 0.1 m; a, b and c are 1 m apart along x, d 0.5
-/// m farther.
-std::string chain() {
-  const std::string cube = box("0.1 0.1 0.1");
-  return "<robot name='chain'>" + link("a", cube) + link("b", cube) + link("c", cube) + link("d", cube) +
-         link("tool_frame") + joint("a", "b", "continuous", "1 0 0") + joint("b", "c", "continuous", "1 0 0") +
-         joint("c", "d", "fixed", "0.5 0 0") + joint("d", "tool_frame", "fixed", "0 0 0") + "</robot>";
-}
-
-std::string reasonFor(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const AllowedPair& pair : scene.allowed) {
-    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
-  }
-  return "checked";
-}
-
-struct Described {
-  SceneDescription scene;
-  std::vector<std::string> warnings;
-};
-
-Described describe(const std::string& urdf, const Srdf& srdf = {}, const RobotSceneOptions& options = {}) {
-  Described described;
-  described.scene = describeRobot(RobotModel(urdf), srdf, loadOwn, options, described.warnings);
-  return described;
-}
+using namespace test;
 
 TEST(RobotScene, LinksWithCollisionElementsAreBodies) {
   const Described described =
@@ -274,139 +218,6 @@ TEST(RobotScene, WarningsArePassedOnOnce) {
       describe("<robot name='r'>" + link("a", mesh("Good.OFF") + mesh("Good.OFF", "2 2 2")) + "</robot>");
   ASSERT_EQ(described.warnings.size(), 1u);
   EXPECT_NE(described.warnings[0].find("found good.off"), std::string::npos);
-}
-
-TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
-  const SceneDescription scene = describe(chain()).scene;
-  EXPECT_EQ(reasonFor(scene, "c", "d"), "rigidly joined");
-  EXPECT_EQ(reasonFor(scene, "a", "b"), "adjacent");
-  EXPECT_EQ(reasonFor(scene, "b", "d"), "out of reach");  // c lies between
-  EXPECT_EQ(reasonFor(scene, "a", "c"), "checked");
-  RobotSceneOptions options;
-  options.check_adjacent = true;
-  const SceneDescription adjacent = describe(chain(), {}, options).scene;
-  EXPECT_EQ(reasonFor(adjacent, "c", "d"), "rigidly joined");
-  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "out of reach");  // 1 m apart at every joint position
-}
-
-TEST(RobotScene, SrdfDisablesAndEnables) {
-  Srdf srdf = parseSrdf(R"(<robot name="chain">
-      <disable_collisions link1="c" link2="a" reason="Never"/>
-      <disable_collisions link1="ghost" link2="a" reason="Never"/>
-      <disable_default_collisions link="d"/></robot>)");
-  const Described disabled = describe(chain(), srdf);
-  EXPECT_EQ(reasonFor(disabled.scene, "a", "c"), "SRDF: Never");
-  EXPECT_EQ(reasonFor(disabled.scene, "a", "d"), "SRDF: disabled by default");
-  EXPECT_EQ(reasonFor(disabled.scene, "c", "d"), "rigidly joined");
-  const auto of_user =
-      parseSrdf("<robot name='chain'><disable_collisions link1='d' link2='c' reason='Adjacent'/></robot>");
-  EXPECT_EQ(reasonFor(describe(chain(), of_user).scene, "c", "d"), "SRDF: Adjacent") << "not watched";
-  ASSERT_EQ(disabled.warnings.size(), 1u);
-  EXPECT_NE(disabled.warnings[0].find("ghost"), std::string::npos);
-
-  srdf.enabled = {{"a", "d"}, {"c", "a"}, {"c", "d"}};
-  const SceneDescription enabled = describe(chain(), srdf).scene;
-  EXPECT_EQ(reasonFor(enabled, "d", "a"), "checked");
-  EXPECT_EQ(reasonFor(enabled, "a", "c"), "SRDF: Never");  // as in MoveIt, disabling wins
-  EXPECT_EQ(reasonFor(enabled, "c", "d"), "rigidly joined");
-}
-
-TEST(RobotScene, AnSrdfOfAnotherRobotIsTold) {
-  const Described described = describe(chain(), parseSrdf("<robot name='crane'/>"));
-  ASSERT_EQ(described.warnings.size(), 1u);
-  EXPECT_EQ(described.warnings[0].find("the SRDF is of robot crane, the URDF of robot chain"), 0u);
-  EXPECT_TRUE(describe(chain(), parseSrdf("<robot name='chain'/>")).warnings.empty());
-  EXPECT_TRUE(describe(chain(), parseSrdf("<robot/>")).warnings.empty());
-}
-
-TEST(RobotScene, AnSrdfsOwnWarningsAndUnknownLinksAreTold) {
-  const Described described = describe(
-      chain(), parseSrdf("<robot><virtual_joint name='world' type='fixed' parent_frame='map' child_link='torso'/>"
-                         "<disable_collisions link1='${p}a' link2='b'/></robot>"));
-  ASSERT_EQ(described.warnings.size(), 3u);
-  EXPECT_NE(described.warnings[0].find("the SRDF's line 1: link1=\"${p}a\" is taken as it is"), std::string::npos);
-  EXPECT_EQ(described.warnings[1], "the SRDF names link ${p}a, which the URDF does not have");
-  EXPECT_EQ(described.warnings[2], "the SRDF names link torso, which the URDF does not have");
-}
-
-TEST(RobotScene, SrdfMayNamePatterns) {
-  Srdf srdf;
-  srdf.disabled = {{"a", "?", "SRDF: Never"}, {"x*", "a", "SRDF: Never"}};
-  const Described disabled = describe(chain(), srdf);
-  EXPECT_EQ(reasonFor(disabled.scene, "a", "c"), "SRDF: Never");
-  EXPECT_EQ(reasonFor(disabled.scene, "a", "d"), "SRDF: Never");
-  ASSERT_EQ(disabled.warnings.size(), 1u);
-  EXPECT_NE(disabled.warnings[0].find("link x*"), std::string::npos);
-
-  srdf.disabled.clear();
-  srdf.disabled_by_default = {"[c-d]", "c*"};
-  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "SRDF: disabled by default");
-  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "d"), "checked") << "there are no sets of characters";
-  srdf.enabled = {{"?", "c"}};
-  EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "checked");
-}
-
-TEST(RobotScene, ThousandsOfLinksAreRefused) {
-  std::string urdf = "<robot name='centipede'>";
-  for (int i = 0; i < 1000; ++i) {
-    const std::string name = "l" + std::to_string(i);
-    urdf += "<link name='" + name + "'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>";
-    if (i > 0)
-      urdf += "<joint name='j" + name + "' type='continuous'><parent link='l0'/><child link='" + name +
-              "'/><axis xyz='0 0 1'/></joint>";
-  }
-  const RobotModel robot(urdf + "</robot>");
-  std::vector<std::string> warnings;
-  const std::string why = test::failureOf<std::length_error>([&] { describeRobot(robot, {}, loadOwn, {}, warnings); });
-  EXPECT_EQ(why,
-            "robot centipede has 1000 links with collision elements, which are 499500 pairs; at most 300000 can be "
-            "checked");
-}
-
-TEST(RobotScene, LinksOutOfReachAreNoPair) {
-  // b rotates 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
-  const std::string cube = box("0.1 0.1 0.1");
-  const SceneDescription scene =
-      describe("<robot name='r'>" + link("a", cube) + link("b", cube) + link("c", cube) +
-               joint("a", "b", "continuous", "1 0 0") + joint("b", "c", "continuous", "0.2 0 0") + "</robot>")
-          .scene;
-  EXPECT_EQ(reasonFor(scene, "a", "c"), "out of reach");
-}
-
-BodyDescription worldBox(const std::string& name, const std::string& frame, const Vector3d& place,
-                         const Vector3d& half_size) {
-  BodyDescription body;
-  body.name = name;
-  body.frame = frame;
-  body.X_frame_B.translation() = place;
-  body.is_world = true;
-  body.geometry.resize(1);
-  body.geometry[0].shape = Primitive(Box{half_size});
-  return body;
-}
-
-TEST(RobotScene, WorldObjectsOutOfReachAreNoPair) {
-  const RobotModel robot(chain());
-  std::vector<std::string> warnings;
-  SceneDescription scene = describeRobot(robot, {}, loadOwn, {}, warnings);
-  scene.bodies.push_back(worldBox("far", "a", {9, 0, 0}, Vector3d::Constant(0.5)));
-  scene.bodies.push_back(worldBox("wall", "a", {0, -3, 0}, {20, 0.1, 20}));
-  scene.bodies.push_back(worldBox("near", "a", {2.0, 0, 0}, Vector3d::Constant(0.1)));
-  scene.bodies.push_back(worldBox("elsewhere", "map", {9, 0, 0}, Vector3d::Constant(0.5)));
-  BodyDescription ground = worldBox("ground", "a", {0, 0, -5}, Vector3d::Ones());
-  ground.geometry[0].shape = Primitive(HalfSpace{Vector3d(0, 0, 1), 0.0});
-  scene.bodies.push_back(ground);
-  disableUnreachable(robot, scene);
-  for (const char* moving : {"b", "c", "d"}) {
-    EXPECT_EQ(reasonFor(scene, "far", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "wall", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "ground", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "elsewhere", moving), "checked");
-  }
-  EXPECT_EQ(reasonFor(scene, "near", "a"), "rigidly joined");
-  EXPECT_EQ(reasonFor(scene, "near", "c"), "checked");
-  EXPECT_EQ(reasonFor(scene, "near", "b"), "out of reach");  // it rotates in place, 1 m away
-  EXPECT_EQ(reasonFor(scene, "elsewhere", "a"), "checked");
 }
 
 }  // namespace

@@ -279,74 +279,6 @@ TEST_F(Tool, PrimitivesNeedNoFiles) {
   EXPECT_NE(result.out.find("\nno files: the bodies that are checked need none\n"), std::string::npos) << result.out;
 }
 
-TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
-  write("scene.yaml",
-        "step: 0.001\nduration: 0.2\nshapes: {ball: {type: sphere, radius: 0.1}, ground: {type: plane}}\n"
-        "bodies: [{name: ground, shape: ground, fixed: true}, {name: ball, shape: ball, xyz: [0, 0, 0.11]}]\n");
-  const ToolRun result = run("simulate scene.yaml --out made --frames 10");
-  EXPECT_EQ(result.exit_code, kDone) << result.error;
-  EXPECT_NE(result.out.find("steps            200 (0.2 s)"), std::string::npos) << result.out;
-  EXPECT_EQ(readText(path("made/summary.txt")), result.out);
-  const std::string steps = readText(path("made/steps.csv")), poses = readText(path("made/poses.csv"));
-  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 202);
-  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), 1 + 2 * 3);
-  EXPECT_EQ((steps + poses).find("nan"), std::string::npos);
-  expectRefused("simulate no.yaml --out no", "no.yaml: cannot be opened");
-  expectRefused("simulate scene.yaml --out no --integrator leapfrog", "leapfrog");
-  for (const char* step : {"-1", "0"}) {
-    expectRefused(std::string("simulate scene.yaml --out no --step ") + step, "time step must be");
-  }
-  expectRefused("simulate scene.yaml --out no --duration 0", "duration / step must be 1 to 1e9 steps");
-  expectRefused("simulate . --out no", "is a directory");
-}
-
-TEST_F(Tool, SimulateWarnsOfEnergyThatGrew) {
-  write("scene.yaml",
-        "step: 0.001\nduration: 0.3\ncontact: {stiffness: 1.0e+12}\n"
-        "shapes: {box: {type: box, size: [0.1, 0.1, 0.1]}, ground: {type: plane}}\n"
-        "bodies: [{name: ground, shape: ground, fixed: true}, {name: box, shape: box, xyz: [0, 0, 0.3]}]\n");
-  for (const char* integrator : {"discrete", "implicit"}) {
-    const ToolRun result = run(std::string("simulate scene.yaml --out made --integrator ") + integrator);
-    EXPECT_EQ(result.exit_code, kDone) << result.error;
-    const bool warns = result.out.find("warning          the energy grew from 2.94 J to ") != std::string::npos;
-    EXPECT_EQ(warns, std::string(integrator) == "discrete") << result.out;
-  }
-}
-
-TEST_F(Tool, InterruptedSimulationKeepsWhatItHas) {
-  write("scene.yaml",
-        "step: 0.001\nduration: 1.0e+5\ngravity: [0, 0, 0]\nshapes: {ball: {type: sphere, radius: 0.1}}\n"
-        "bodies: [{name: ball, shape: ball}]\n");
-  const std::string script = "cd '" + path("").string() +
-                             "' && { '" SDF_CCD_TOOL
-                             "' simulate scene.yaml --out made > ../out.txt 2> ../progress.txt & "
-                             "for i in $(seq 300); do grep -qs simulation: ../progress.txt && break; sleep 0.1; done; "
-                             "sleep 0.2; kill -INT $!; wait $!; }";
-  const int status = std::system(script.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), kPartlyDone);
-  EXPECT_NE(readText(path("made/summary.txt")).find("interrupted after step"), std::string::npos);
-  const std::string steps = readText(path("made/steps.csv"));
-  EXPECT_EQ(steps.back(), '\n');
-  for (const fs::directory_entry& file : fs::directory_iterator(path("made"))) {
-    const std::string extension = file.path().extension().string();
-    EXPECT_TRUE(extension == ".csv" || extension == ".txt" || extension == ".bag") << file.path();
-  }
-}
-
-TEST_F(Tool, SimulationThatCannotGoOnKeepsWhatItHas) {
-  write("scene.yaml",
-        "step: 0.01\nduration: 1\nshapes: {box: {type: box, size: [0.1, 0.2, 0.3]}}\n"
-        "bodies: [{name: brick, shape: box, mass: 1, force: [1.0e+13, 0, 0]}]\n");
-  const ToolRun result = run("simulate scene.yaml --out made");
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("body `brick`, step 2: it would move 1.5e+09 m in one step"), std::string::npos)
-      << result.error;
-  const std::string steps = readText(path("made/steps.csv"));
-  EXPECT_EQ(std::count(steps.begin(), steps.end(), '\n'), 3);
-  EXPECT_EQ(steps.find("nan"), std::string::npos);
-  EXPECT_EQ(steps.find("inf"), std::string::npos);
-}
-
 TEST_F(Tool, LearnPairsWritesAnSrdf) {
   ::setenv("ROS_PACKAGE_PATH", SDF_CCD_SOURCE_DIR, 1);
   const std::string command = "learn-pairs --urdf " SDF_CCD_SOURCE_DIR "/config/demo/arm.urdf --max-error 0.02 ";
@@ -370,45 +302,6 @@ TEST_F(Tool, LearnPairsWritesAnSrdf) {
   expectRefused(command + "--srdf missing.srdf --out no.srdf", "missing.srdf");
   expectRefused("learn-pairs --urdf missing.urdf --out no.srdf", "missing.urdf");
   expectRefused(command + "--out nowhere/no.srdf", "nowhere/no.srdf: cannot write");
-}
-
-TEST_F(Tool, WorkPrecisionWritesATableAndAPlot) {
-  const bool has_gnuplot = std::system("gnuplot --version > /dev/null 2>&1") == 0;
-  const ToolRun result = run("work-precision cell --quick --queries 20 --mesh ball.off --out study");
-  EXPECT_EQ(result.exit_code, has_gnuplot ? kDone : kPartlyDone) << result.error;
-  EXPECT_NE(result.out.find("time of impact"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("31.2 mm"), std::string::npos) << result.out;  // a ball of 1 m in 32 cells
-  std::istringstream csv(readText(path("study/cell.csv")));
-  std::string line;
-  std::getline(csv, line);
-  EXPECT_EQ(line,
-            "study,quantity,error_unit,system,setting,value,seconds_per_query,error_median,error_p99,error_max,bound,"
-            "missed,queries");
-  int rows = 0;
-  for (; std::getline(csv, line); ++rows) EXPECT_EQ(line.substr(0, 5), "cell,");
-  EXPECT_EQ(rows, 12);  // hits, batched hits and depths at four cell sizes
-  EXPECT_EQ(fs::exists(path("study/cell.svg")), has_gnuplot);
-  EXPECT_EQ(fs::exists(path("study/cell.svg.part")), false);
-}
-
-TEST_F(Tool, WorkPrecisionWithoutGnuplotKeepsTheNumbers) {
-  const std::string search = std::getenv("PATH");
-  ::setenv("PATH", "/nowhere", 1);
-  const ToolRun result = run("work-precision cell --quick --queries 20 --mesh ball.off --out study");
-  ::setenv("PATH", search.c_str(), 1);
-  EXPECT_EQ(result.exit_code, kPartlyDone);
-  EXPECT_NE(result.error.find("gnuplot not found"), std::string::npos) << result.error;
-  EXPECT_TRUE(fs::exists(path("study/cell.csv")));
-  EXPECT_FALSE(fs::exists(path("study/cell.svg")));
-}
-
-TEST_F(Tool, WorkPrecisionRefusesWhatItCannotMeasure) {
-  expectRefused("work-precision speed --out study", "unknown study `speed`; known: cell, max-error");
-  expectRefused("work-precision cell --queries 3 --out study", "--queries");
-  expectRefused("work-precision cell --queries 0 --out study", "--queries");
-  expectRefused("work-precision cell --mesh missing.stl --out study", "missing.stl");
-  write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n");
-  expectRefused("work-precision cell --mesh open.off --out study", "inside and outside must be certain");
 }
 
 }  // namespace
