@@ -1,5 +1,6 @@
 #!/bin/bash
-# Installs the build, moves the installation, and runs its tool on a mesh: it must find the program that reads meshes.
+# Installs the build, moves the installation, and uses it there: the tool must find the program that reads meshes, and CMake
+# the libraries, with which the examples are built and run.
 # usage: installed_layout.sh BUILD_DIRECTORY LIB_DIRECTORY BIN_DIRECTORY DATA_DIRECTORY
 set -euo pipefail
 build=$1 lib=$2 bin=$3 data=$4
@@ -26,4 +27,9 @@ mv "$work/moved/$lib/sdf_ccd/sdf_ccd_read" "$work/elsewhere"
 status=0; build_mesh || status=$?
 [ $status = 2 ] && grep -q "cannot find the helper program sdf_ccd_read in" "$work/log" || fail "status $status without the reader"
 SDF_CCD_READER=$work/elsewhere build_mesh || fail "SDF_CCD_READER is not followed"
+mv "$work/elsewhere" "$work/moved/$lib/sdf_ccd/sdf_ccd_read"
+
+# The examples' own paths lead to the libraries.
+env -u LD_LIBRARY_PATH "$(dirname "${BASH_SOURCE[0]}")/installed_examples.sh" "$work/moved" "$work/examples" > "$work/log" 2>&1 ||
+  fail "the examples fail"
 echo "installed layout: good"
