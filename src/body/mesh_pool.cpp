@@ -7,7 +7,7 @@
 #include "common/number_text.h"
 #include "element_options.h"
 #include "field/field_cache.h"
-#include "field/uniform/sparse_grid.h"
+#include "field/grid_cell.h"
 #include "shell/shell_cache.h"
 
 namespace sdf_ccd {

@@ -4,6 +4,7 @@
 
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
+#include "grid_cell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "common/infinity.h"
 #include "field/uniform/uniform_shape.h"
+#include "grid_cell.h"
 
 namespace sdf_ccd {
 

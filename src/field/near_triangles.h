@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "field/uniform/sparse_grid.h"
+#include "grid_cell.h"
 #include "surface_index.h"
 
 namespace sdf_ccd {

@@ -13,6 +13,7 @@
 #include "field/spread_order.h"
 #include "field/uniform/uniform_shape.h"
 #include "field/voxel_field.h"
+#include "grid_cell.h"
 
 namespace sdf_ccd {
 namespace {

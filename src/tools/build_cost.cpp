@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
-#include "field/uniform/sparse_grid.h"
+#include "field/grid_cell.h"
 #include "geometry/unit_hint.h"
 #include "monitor/scene_cost.h"
 #include "shell/sample_surface.h"

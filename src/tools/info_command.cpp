@@ -6,7 +6,6 @@
 
 #include "commands.h"
 #include "common/number_text.h"
-#include "field/uniform/sparse_grid.h"
 #include "geometry/openings.h"
 #include "mesh_field.h"
 #include "output_file.h"

@@ -8,7 +8,6 @@
 
 #include "common/number_text.h"
 #include "field/opening_caps.h"
-#include "field/uniform/sparse_grid.h"
 #include "picture.h"
 #include "print.h"
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/grid_cell.h"
 #include "field/uniform/sparse_grid.h"
 #include "geometry/triangle_tree.h"
 #include "oracle/random.h"

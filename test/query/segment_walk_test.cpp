@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "field/uniform/sparse_grid.h"
 #include "oracle/random_segment.h"
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"

@@ -10,6 +10,7 @@
 #include "common/lattice.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
+#include "field/grid_cell.h"
 #include "field/near_octants.h"
 #include "sdf_ccd/common/cancel.h"
 

@@ -13,6 +13,7 @@
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "field/empty_sphere_search.h"
+#include "field/grid_cell.h"
 #include "field/spread_order.h"
 
 namespace sdf_ccd {

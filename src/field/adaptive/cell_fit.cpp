@@ -1,4 +1,5 @@
 #include "cell_fit.h"
+#include "field/grid_cell.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,6 +9,7 @@
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "field/cube_corner.h"
+#include "field/grid_cell.h"
 #include "field/spread_order.h"
 #include "uniform_shape.h"
 

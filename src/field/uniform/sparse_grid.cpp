@@ -10,6 +10,7 @@
 #include "common/parallel_for.h"
 #include "field/cube_corner.h"
 #include "field/empty_sphere_search.h"
+#include "field/grid_cell.h"
 #include "field/grid_limits.h"
 
 namespace sdf_ccd {

@@ -151,13 +151,4 @@ inline double trilinear(const std::array<double, 8>& c, const Vector3d& u) {
 /// Its gradient per unit of (u, v, w).
 Vector3d trilinearGradient(const std::array<double, 8>& corners, const Vector3d& u);
 
-/// Half the diagonal of a unit cube. Also the maximum error, in sides of the cell, of the trilinear interpolation of
-/// exact corner values of a 1-Lipschitz function (lipschitzError() at the centre).
-constexpr double kHalfSqrt3 = 0.8660254037844386;
-
-/// Bound on |trilinear − f| for exact corner values of a 1-Lipschitz f on a cube of side h [m] (design §3.3).
-inline double lipschitzError(const Vector3d& u, double h) {
-  return h * std::sqrt((u.array() * (1.0 - u.array())).max(0.0).sum());
-}
-
 }  // namespace sdf_ccd

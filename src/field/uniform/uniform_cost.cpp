@@ -7,6 +7,7 @@
 #include "common/lattice.h"
 #include "common/processor_time.h"
 #include "field/field_cost.h"
+#include "field/grid_cell.h"
 #include "field/sample_mean.h"
 #include "field/spread_order.h"
 #include "uniform_shape.h"

@@ -9,7 +9,7 @@
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "common/shown_text.h"
-#include "field/uniform/sparse_grid.h"
+#include "field/grid_cell.h"
 #include "ros/monitor/low_priority.h"
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
