@@ -1,9 +1,9 @@
 #include "sdf_ccd/dynamics/rigid_world.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
 #include "common/number_text.h"
@@ -62,9 +62,8 @@ MassProperties massProperties(const TriangleMesh& mesh, double density) {
     second += v / 20.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
   }
   if (!(volume > 1e-12 * box.sizes().prod()) || !(volume > 0.0)) {
-    std::ostringstream what;
-    what << "mass: the mesh encloses no volume (" << volume << " m³); give mass and inertia";
-    throw std::invalid_argument(what.str());
+    throw std::invalid_argument(
+        fmt::format("mass: the mesh encloses no volume ({:g} m³); give mass and inertia", volume));
   }
   const Vector3d center = first / volume;
   return {density * volume, apex + center, density * inertiaOf(second - volume * center * center.transpose())};
@@ -79,14 +78,12 @@ MassProperties massProperties(const Primitive& primitive, double density) {
 }
 
 void validateInertia(double mass, const Matrix3d& inertia) {
-  const auto refuse = [](const std::string& what, const auto& value) {
-    std::ostringstream message;
-    message << what << ", got " << value;
-    throw std::invalid_argument(message.str());
+  const auto refuse = [](const std::string& what, const std::string& value) {
+    throw std::invalid_argument(what + ", got " + value);
   };
-  if (!(mass > 0.0) || !std::isfinite(mass)) refuse("mass must be finite and positive", mass);
-  const Eigen::IOFormat row(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", "; ");
-  const auto given = inertia.format(row);
+  if (!(mass > 0.0) || !std::isfinite(mass)) refuse("mass must be finite and positive", numberText(mass));
+  const auto row = [&](int i) { return fmt::format("{:g} {:g} {:g}", inertia(i, 0), inertia(i, 1), inertia(i, 2)); };
+  const std::string given = row(0) + "; " + row(1) + "; " + row(2);
   if (!inertia.allFinite()) refuse("inertia must be finite", given);
   if (!inertia.isApprox(inertia.transpose(), 1e-9)) refuse("inertia must be symmetric", given);
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <initializer_list>
 #include <stdexcept>
+#include <string>
 
 #include "common/pi.h"
+#include "common/refuse.h"
 #include "polygon.h"
 
 namespace sdf_ccd {
@@ -13,18 +15,12 @@ namespace {
 
 using Ring = std::vector<Vector3d>;
 
-void requireSizes(const char* shape, std::initializer_list<double> sizes) {
-  for (const double size : sizes) {
-    if (size > 0.0 && std::isfinite(size)) continue;
-    std::ostringstream message;
-    message << shape << ": sizes must be finite and positive, not " << size << " m";
-    throw std::invalid_argument(message.str());
-  }
+void requireSizes(const std::string& shape, std::initializer_list<double> sizes) {
+  for (const double size : sizes) requirePositive(shape + ": sizes", size, " m");
 }
 
-void requireSteps(const char* shape, int steps) {
-  if (steps < 3)
-    throw std::invalid_argument(std::string(shape) + ": at least 3 steps are needed, not " + std::to_string(steps));
+void requireSteps(const std::string& shape, int steps) {
+  if (steps < 3) refuse(shape + ": at least 3 steps are needed, not " + std::to_string(steps));
 }
 
 Ring circle(double radius, double z, int steps) {
@@ -120,8 +116,7 @@ TriangleMesh lofted(const std::vector<std::vector<Vector3d>>& rings, bool loop) 
 
 TriangleMesh extruded(const std::vector<Vector3d>& outline, double height) {
   requireSizes("prism", {height});
-  if (outline.size() < 3)
-    throw std::invalid_argument("prism: at least 3 corners are needed, not " + std::to_string(outline.size()));
+  if (outline.size() < 3) refuse("prism: at least 3 corners are needed, not " + std::to_string(outline.size()));
   const int n = int(outline.size());
   TriangleMesh mesh;
   for (const double z : {-0.5 * height, 0.5 * height}) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
+
+#include <fmt/format.h>
 
 #include "common/counted.h"
 #include "loop_cap.h"
@@ -76,17 +77,14 @@ Openings findOpenings(const TriangleMesh& mesh) {
 }
 
 std::string summary(const Openings& openings) {
-  std::ostringstream text;
-  text.precision(3);
-  if (openings.count == 0) {
-    text << (openings.caps.triangles.empty() ? "no openings" : "no openings beyond cracks");
-  } else {
-    text << counted(openings.count, "opening") << ", the longest " << openings.longest << " m around, " << openings.area
-         << " m^2 of caps";
+  std::string text = openings.caps.triangles.empty() ? "no openings" : "no openings beyond cracks";
+  if (openings.count > 0) {
+    text = fmt::format("{}, the longest {:.3g} m around, {:.3g} m^2 of caps", counted(openings.count, "opening"),
+                       openings.longest, openings.area);
   }
-  if (openings.doubt > 0.0) text << ", doubtful in " << 100.0 * openings.doubt << " % of the interior";
-  if (openings.voxels > 0) text << ", " << openings.voxels << " voxels treated as inside";
-  return text.str();
+  if (openings.doubt > 0.0) text += fmt::format(", doubtful in {:.3g} % of the interior", 100.0 * openings.doubt);
+  if (openings.voxels > 0) text += fmt::format(", {} voxels treated as inside", openings.voxels);
+  return text;
 }
 
 }  // namespace sdf_ccd

@@ -1,21 +1,15 @@
 #include "sdf_ccd/geometry/primitive.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "common/infinity.h"
 #include "common/pi.h"
+#include "common/refuse.h"
 
 namespace sdf_ccd {
 namespace {
-
-void requirePositive(const char* what, double value) {
-  if (std::isfinite(value) && value > 0) return;
-  std::ostringstream message;
-  message << what << " must be finite and positive, not " << value;
-  throw std::invalid_argument(message.str());
-}
 
 struct Area {
   double operator()(const Sphere& s) const { return 4 * kPi * s.radius * s.radius; }
@@ -41,10 +35,9 @@ struct Validate {
         std::isfinite(half_space.offset)) {
       return;
     }
-    std::ostringstream message;
-    message << "a half-space needs a unit normal and a finite offset, not (" << half_space.normal.transpose() << "), "
-            << half_space.offset;
-    throw std::invalid_argument(message.str());
+    const Vector3d& n = half_space.normal;
+    refuse(fmt::format("a half-space needs a unit normal and a finite offset, not ({:g} {:g} {:g}), {:g}", n.x(), n.y(),
+                       n.z(), half_space.offset));
   }
 };
 

@@ -1,7 +1,8 @@
 #include "geometry/solid_boundary.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include <fmt/format.h>
 
 #include "common/counted.h"
 #include "common/parallel_for.h"
@@ -182,18 +183,17 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
 
 std::string summary(const SolidReport& report) {
   if (!report.failure.empty()) return "all triangles kept: " + report.failure;
-  std::ostringstream text;
-  text.precision(2);
+  std::string text;
   const auto add = [&](int count, const std::string& what) {
     if (count == 0) return;
-    text << (text.tellp() > 0 ? ", " : "") << counted(count, "triangle") << " " << what;
+    text += (text.empty() ? "" : ", ") + counted(count, "triangle") + " " + what;
   };
   add(report.dropped, "inside the solid removed");
   add(report.clipped, "clipped into " + std::to_string(report.pieces));
   add(report.reversed, "flipped");
   add(report.doubtful, "doubtful");
-  if (report.doubtful > 0) text << " (" << 100.0 * report.doubtful_area << " % of the area)";
-  return text.str();
+  if (report.doubtful > 0) text += fmt::format(" ({:.2g} % of the area)", 100.0 * report.doubtful_area);
+  return text;
 }
 
 std::string warning(const SolidReport& report) {
@@ -202,11 +202,10 @@ std::string warning(const SolidReport& report) {
     return "depths may be those of faces inside the solid, because " + report.failure;
   }
   if (report.doubtful_area <= kToSpeakOf) return {};
-  std::ostringstream text;
-  text.precision(2);
-  text << "depths may be those of faces inside the solid: " << report.doubtful << " triangles ("
-       << 100.0 * report.doubtful_area << " % of the area) cannot be classified as outside or inside";
-  return text.str();
+  return fmt::format(
+      "depths may be those of faces inside the solid: {} triangles ({:.2g} % of the area) cannot be classified as "
+      "outside or inside",
+      report.doubtful, 100.0 * report.doubtful_area);
 }
 
 }  // namespace sdf_ccd

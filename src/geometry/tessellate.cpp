@@ -1,10 +1,13 @@
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <unordered_map>
 
+#include <fmt/format.h>
+
+#include "common/number_text.h"
 #include "common/pi.h"
+#include "common/refuse.h"
 #include "sdf_ccd/geometry/primitive.h"
 
 namespace sdf_ccd {
@@ -114,9 +117,8 @@ struct Tessellate {
 
   void requireRoom(std::size_t triangles) const {
     if (triangles <= kMaxTriangles) return;
-    std::ostringstream message;
-    message << "a deviation of " << max_deviation << " m needs more than " << kMaxTriangles << " triangles";
-    throw std::length_error(message.str());
+    throw std::length_error(
+        fmt::format("a deviation of {:g} m needs more than {} triangles", max_deviation, kMaxTriangles));
   }
 };
 
@@ -125,9 +127,7 @@ struct Tessellate {
 TriangleMesh tessellate(const Primitive& primitive, double max_deviation) {
   validate(primitive);
   if (!(max_deviation > 0)) {
-    std::ostringstream message;
-    message << "the deviation of a tessellation must be positive, not " << max_deviation;
-    throw std::invalid_argument(message.str());
+    refuse("the deviation of a tessellation must be positive, not " + numberText(max_deviation));
   }
   return std::visit(Tessellate{max_deviation}, primitive);
 }

@@ -3,7 +3,8 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
+
+#include <fmt/format.h>
 
 #include "commands.h"
 #include "common/number_text.h"
@@ -47,27 +48,30 @@ struct Summary {
 
 std::string report(const Arguments& arguments, const SimulationSetup& setup, const StepRecord& start,
                    const StepRecord& end, const Summary& summary) {
-  std::ostringstream text;
   std::size_t moving = 0;
   for (const RigidBody& body : setup.world.bodies) moving += !body.fixed;
-  text << "scene            " << arguments.scene << "\n"
-       << "integrator       " << toString(setup.scheme) << ", step " << setup.step << " s\n"
-       << "bodies           " << setup.world.bodies.size() << ", of which " << moving << " move\n"
-       << "steps            " << end.step << " (" << end.time << " s), with contact in " << summary.contact_steps
-       << "\n"
-       << "energy           " << shortText(start.energy()) << " J at the start, " << shortText(end.energy())
-       << " J at the end; kinetic " << shortText(end.kinetic) << " J\n"
-       << "highest rise     " << shortText(summary.highest_rise) << " J in one step\n"
-       << "deepest point    " << shortText(summary.deepest) << " m at the end of a step\n"
-       << "reaction error   " << shortText(summary.reaction_error) << " of the contact impulses\n"
-       << "run time         " << durationText(summary.run_time) << ", "
-       << shortText(1e3 * summary.run_time / std::max(1L, end.step)) << " ms a step\n";
-  if (summary.energy_excess > 0.0) text << "energy excess    " << shortText(summary.energy_excess) << " J\n";
+  std::string text = fmt::format(
+      "scene            {}\n"
+      "integrator       {}, step {:g} s\n"
+      "bodies           {}, of which {} move\n"
+      "steps            {} ({:g} s), with contact in {}\n"
+      "energy           {:.3g} J at the start, {:.3g} J at the end; kinetic {:.3g} J\n"
+      "highest rise     {:.3g} J in one step\n"
+      "deepest point    {:.3g} m at the end of a step\n"
+      "reaction error   {:.3g} of the contact impulses\n"
+      "run time         {}, {:.3g} ms a step\n",
+      arguments.scene, toString(setup.scheme), setup.step, setup.world.bodies.size(), moving, end.step, end.time,
+      summary.contact_steps, start.energy(), end.energy(), end.kinetic, summary.highest_rise, summary.deepest,
+      summary.reaction_error, durationText(summary.run_time), 1e3 * summary.run_time / std::max(1L, end.step));
+  if (summary.energy_excess > 0.0) text += fmt::format("energy excess    {:.3g} J\n", summary.energy_excess);
   if (end.energy() - start.energy() > kUnstable * summary.moving + 1e-6 * std::abs(start.energy())) {
-    text << "warning          the energy grew from " << shortText(start.energy()) << " J to " << shortText(end.energy())
-         << " J: the integrator is not stable here; shorten the step, lower the stiffness, or use implicit\n";
+    text += fmt::format(
+        "warning          the energy grew from {:.3g} J to {:.3g} J: the integrator is not stable here; shorten the "
+        "step, "
+        "lower the stiffness, or use implicit\n",
+        start.energy(), end.energy());
   }
-  return text.str();
+  return text;
 }
 
 void run(const Arguments& arguments) {

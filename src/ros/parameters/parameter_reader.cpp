@@ -87,17 +87,10 @@ XmlRpcValue* ParameterReader::find(const std::string& key) {
 }
 
 void ParameterReader::fail(const std::string& key, const std::string& expected) const {
-  std::ostringstream text;
-  text << "parameter " << name_ << "/" << key;
-  if (isSet(key)) {
-    text << " is " << shownText(written(tree_[key]));
-  } else {
-    text << " is missing";
-  }
-  text << ", expected " << expected;
+  const std::string state = isSet(key) ? " is " + shownText(written(tree_[key])) : " is missing";
   const std::string misspelt = isSet(key) ? "" : nearestName(key, notRead());
-  if (!misspelt.empty()) text << "; is it " << misspelt << "?";
-  throw ParameterError(text.str());
+  throw ParameterError("parameter " + name_ + "/" + key + state + ", expected " + expected +
+                       (misspelt.empty() ? "" : "; is it " + misspelt + "?"));
 }
 
 double ParameterReader::number(const std::string& key, double fallback) {

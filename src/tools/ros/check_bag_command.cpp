@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 #include <console_bridge/console.h>
@@ -212,15 +211,16 @@ void run(const Arguments& arguments) {
   for (const std::string& what : missing) std::cerr << "sdf_ccd: " << what << std::endl;
   const bool is_complete = areAllMade(*scene) && missing.empty();
   const double length = (motion.end() - motion.begin()).toSec();
-  std::ostringstream text;
-  text << "bag              " << arguments.bag << ": " << fixedText(length, 3) << " s from " << timeText(motion.begin())
-       << ", followed by " << motion.source() << "\n"
-       << "robot            " << described.robot->urdf().getName() << ": " << scene->bodies.size()
-       << " bodies with the world's, " << scene->pairs.size() << " pairs, fixed frame " << described.fixed_frame << "\n"
-       << statistics.summary(motion.begin()) << "speed            " << fixedText(length, 1) << " s in "
-       << durationText(checked.seconds) << ": " << shortText(length / checked.seconds) << " times real time\n";
-  std::cout << text.str() << std::flush;
-  files.summary.stream() << expected << text.str();
+  const std::string text = fmt::format(
+      "bag              {}: {:.3f} s from {}, followed by {}\n"
+      "robot            {}: {} bodies with the world's, {} pairs, fixed frame {}\n"
+      "{}"
+      "speed            {:.1f} s in {}: {:.3g} times real time\n",
+      arguments.bag, length, timeText(motion.begin()), motion.source(), described.robot->urdf().getName(),
+      scene->bodies.size(), scene->pairs.size(), described.fixed_frame, statistics.summary(motion.begin()), length,
+      durationText(checked.seconds), length / checked.seconds);
+  std::cout << text << std::flush;
+  files.summary.stream() << expected << text;
   files.plan.stream() << planText(*scene, warnings);
   files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
   if (!is_complete) throw PartlyDone();
