@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "common/infinity.h"
+#include "common/number_text.h"
 #include "common/pi.h"
 #include "common/refuse.h"
 
@@ -35,9 +34,8 @@ struct Validate {
         std::isfinite(half_space.offset)) {
       return;
     }
-    const Vector3d& n = half_space.normal;
-    refuse(fmt::format("a half-space needs a unit normal and a finite offset, not ({:g} {:g} {:g}), {:g}", n.x(), n.y(),
-                       n.z(), half_space.offset));
+    refuse("a half-space needs a unit normal and a finite offset, not " + vectorText(half_space.normal) + ", " +
+           numberText(half_space.offset));
   }
 };
 

@@ -11,19 +11,12 @@
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
-namespace {
-
-std::string text(const Vector3d& p) {
-  return "(" + numberText(p.x()) + ", " + numberText(p.y()) + ", " + numberText(p.z()) + ")";
-}
-
-}  // namespace
 
 void validate(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw std::invalid_argument("the mesh has no triangle");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (!mesh.vertices[i].allFinite()) {
-      throw std::invalid_argument("vertex " + std::to_string(i) + " is not finite: " + text(mesh.vertices[i]));
+      throw std::invalid_argument("vertex " + std::to_string(i) + " is not finite: " + vectorText(mesh.vertices[i]));
     }
   }
   const int count = static_cast<int>(mesh.vertices.size());
@@ -42,7 +35,7 @@ void validate(const TriangleMesh& mesh) {
     throw std::invalid_argument("the mesh is too large or too far from the origin: extent " + numberText(extent) +
                                 " m (limit 1e6), largest coordinate " + numberText(reach) + " m (limit 1e9)");
   }
-  if (!(extent >= 1e-9)) throw std::invalid_argument("the mesh is smaller than 1e-9 m, at " + text(box.min()));
+  if (!(extent >= 1e-9)) throw std::invalid_argument("the mesh is smaller than 1e-9 m, at " + vectorText(box.min()));
 }
 
 AlignedBox3d boundingBox(const TriangleMesh& mesh) {
@@ -78,7 +71,7 @@ double signedVolume(const TriangleMesh& mesh) {
 
 TriangleMesh scaled(TriangleMesh mesh, const Vector3d& scale) {
   if (!scale.allFinite() || (scale.array() == 0).any()) {
-    throw std::invalid_argument("a mesh cannot be scaled by " + text(scale));
+    throw std::invalid_argument("a mesh cannot be scaled by " + vectorText(scale));
   }
   for (Vector3d& v : mesh.vertices) v = v.cwiseProduct(scale);
   if (std::signbit(scale.x()) ^ std::signbit(scale.y()) ^ std::signbit(scale.z())) {

@@ -10,16 +10,9 @@
 #include "field/uniform/sparse_grid.h"
 
 namespace sdf_ccd::tools {
-namespace {
-
-std::string describe(const Vector3d& p) {
-  return fmt::format("{:.6g} {:.6g} {:.6g}", p.x(), p.y(), p.z());
-}
-
-}  // namespace
 
 std::string describe(const AlignedBox3d& box) {
-  return describe(box.min()) + " .. " + describe(box.max()) + " m";
+  return vectorText(box.min()) + " .. " + vectorText(box.max()) + " m";
 }
 
 std::string describe(const DistanceField& field) {

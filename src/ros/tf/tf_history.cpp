@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -23,10 +24,6 @@ const ros::Duration kSweepPeriod(1.0);
 std::string_view bare(std::string_view frame) {
   const std::size_t start = frame.find_first_not_of('/');
   return start == std::string_view::npos ? std::string_view() : frame.substr(start);
-}
-
-std::string secondsText(const ros::Time& time) {
-  return fmt::format("{:.3f} s", time.toSec());
 }
 
 }  // namespace
@@ -91,7 +88,7 @@ bool TfHistory::isRefused(const geometry_msgs::TransformStamped& transform, cons
              (stamp.sec < kLastSecond && (clock_.isZero() || stamp < clock_ || before(stamp, keep_) <= clock_))) {
     return false;
   } else {
-    refuse(child + " is stamped " + secondsText(stamp) + ", when it is " + secondsText(clock_));
+    refuse(child + " is stamped " + secondsText(stamp.toSec(), 3) + ", when it is " + secondsText(clock_.toSec(), 3));
   }
   return true;
 }
@@ -280,15 +277,17 @@ bool TfHistory::lookup(const std::string& frame, const ros::Time& time, Isometry
   if (!problem.empty()) return false;
   const ros::Time at = !time.isZero() ? time : known.is_static ? known.first : known.last;
   if (at < known.first || (!known.is_static && at > known.last)) {
-    problem = frame + " is known from " + secondsText(known.first) +
-              (known.is_static ? " on" : " to " + secondsText(known.last)) + ", not at " + secondsText(at);
+    problem = frame + " is known from " + secondsText(known.first.toSec(), 3) +
+              (known.is_static ? " on" : " to " + secondsText(known.last.toSec(), 3)) + ", not at " +
+              secondsText(at.toSec(), 3);
     return false;
   }
   TfWindow window;
   copy(chains, {{at, at}}, at, window);
   problem = window.problem(0);
   if (problem.empty() && window.longestGap(0) > max_gap)
-    problem = fmt::format("{} has no transform for {:.3f} s, about {}", frame, window.longestGap(0), secondsText(at));
+    problem = fmt::format("{} has no transform for {:.3f} s, about {}", frame, window.longestGap(0),
+                          secondsText(at.toSec(), 3));
   if (problem.empty()) X_WF = window.pose(0, 0.0);
   return problem.empty();
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/valid_pose.h"
 
@@ -42,10 +43,6 @@ std::optional<std::size_t> earliestOf(const std::vector<ros::Time>& ends) {
 }
 
 }  // namespace
-
-std::string TfTracker::seconds(double duration) {
-  return fmt::format("{:.2f} s", duration);
-}
 
 std::string tooFar(const std::string& frame) {
   return fmt::format("{} is more than {:.0g} m from the origin", frame, kFarthestPose);
@@ -160,7 +157,7 @@ void TfTracker::readHistory(const ros::Time& now, std::vector<std::string>& miss
     if (!span.problem.empty()) {
       missing[body] = span.problem;
     } else if (!span.is_static && secondsBetween(span.last, clock) > options_.max_latency) {
-      missing[body] = frames_[body] + " is late by " + seconds(secondsBetween(span.last, clock));
+      missing[body] = frames_[body] + " is late by " + secondsText(secondsBetween(span.last, clock), 2);
     } else if (hasChanged(body)) {
       missing[body] = span.change;
     } else if (!too_late_[body].empty()) {

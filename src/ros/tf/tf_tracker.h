@@ -132,7 +132,6 @@ class TfTracker {
   void posesDuring(double time, std::vector<Isometry3d>& X_WB, std::vector<std::string>& missing);
   void boundJerks(double start, double end, std::vector<double>& jerk);
   void setSpans(TrackedCycle& cycle) const;
-  static std::string seconds(double duration);
 
   TfHistory& history_;
   std::vector<TrackedBody> bodies_;

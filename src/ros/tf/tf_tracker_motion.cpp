@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "common/number_text.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
 #include "ros/tf/valid_pose.h"
@@ -131,12 +132,12 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
     } else if (is_needed && needed.from < changed_[body]) {
       missing[body] = span.change + " since then";
     } else if (is_needed && !span.is_static && length > options_.max_cycle) {
-      missing[body] = "no cycle for " + seconds(length);
+      missing[body] = "no cycle for " + secondsText(length, 2);
     } else if (is_needed && span.first > needed.from) {
-      missing[body] = frame + " is known only since " + seconds(secondsBetween(needed.from, span.first)) +
+      missing[body] = frame + " is known only since " + secondsText(secondsBetween(needed.from, span.first), 2) +
                       " after the cycle's start";
     } else if (is_needed && window_.longestGap(body) > options_.max_cycle) {
-      missing[body] = "no transforms of " + frame + " for " + seconds(window_.longestGap(body));
+      missing[body] = "no transforms of " + frame + " for " + secondsText(window_.longestGap(body), 2);
     } else {
       missing[body] = window_.problem(body);
     }

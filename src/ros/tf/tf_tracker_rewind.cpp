@@ -1,6 +1,7 @@
 // Part of TfTracker: pairs whose time is checked again, or for the first time after newer ones.
 #include <algorithm>
 
+#include "common/number_text.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
 
@@ -55,10 +56,10 @@ void TfTracker::rewindLatePairs() {
       merge({late.frame, since, std::min(late.until, last_end_)}, late_);
       const double age = secondsBetween(since, last_end_);
       if (age > options_.max_cycle) {
-        too_late_[body] =
-            "transforms of " + late.frame + " arrived late, for times up to " + seconds(age) + " before the cycle";
+        too_late_[body] = "transforms of " + late.frame + " arrived late, for times up to " + secondsText(age, 2) +
+                          " before the cycle";
       } else if (!mayRewind(age)) {
-        too_late_[body] = "transforms of " + late.frame + " arrive late repeatedly, now by " + seconds(age);
+        too_late_[body] = "transforms of " + late.frame + " arrive late repeatedly, now by " + secondsText(age, 2);
       }
     }
   }

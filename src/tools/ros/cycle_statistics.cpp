@@ -24,7 +24,7 @@ std::string quantiles(std::vector<double> values, const std::vector<double>& sha
 }
 
 std::string secondsAfter(const ros::Time& begin, const ros::Time& time) {
-  return fixedText((time - begin).toSec(), 3) + " s";
+  return secondsText((time - begin).toSec(), 3);
 }
 
 /// A heading, the first items, and the number of those left out.
