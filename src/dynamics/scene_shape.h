@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "sdf_ccd/dynamics/rigid_world.h"
-#include "yaml_map.h"
+#include "yaml/yaml_map.h"
 
 namespace sdf_ccd {
 

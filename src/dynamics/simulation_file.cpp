@@ -6,10 +6,10 @@
 #include <random>
 #include <set>
 
-#include "common/load_yaml.h"
 #include "common/text_limits.h"
 #include "scene_shape.h"
 #include "storage/regular_file.h"
+#include "yaml/load_yaml.h"
 
 namespace sdf_ccd {
 namespace {

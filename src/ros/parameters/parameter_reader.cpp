@@ -4,7 +4,6 @@
 #include <locale>
 #include <sstream>
 
-#include "common/nearest_name.h"
 #include "common/number_text.h"
 #include "common/shown_text.h"
 
@@ -60,17 +59,21 @@ bool toNumber(const XmlRpcValue& value, double& number) {
   return std::isfinite(number);
 }
 
-}  // namespace
-
-ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string name) : tree_(tree), name_(std::move(name)) {}
-
-bool ParameterReader::isSet(const std::string& key) const {
-  return tree_.getType() == XmlRpcValue::TypeStruct && tree_.hasMember(key);
+SettingKeys::Names keysOf(XmlRpcValue tree) {
+  SettingKeys::Names keys;
+  if (tree.getType() != XmlRpcValue::TypeStruct) return keys;
+  for (const auto& member : tree) keys.insert(member.first);
+  return keys;
 }
 
+}  // namespace
+
+ParameterReader::ParameterReader(const XmlRpcValue& tree, std::string name)
+    : tree_(tree), name_(std::move(name)), keys_(keysOf(tree)) {}
+
 bool ParameterReader::has(const std::string& key) {
-  known_.insert(key);
-  return isSet(key);
+  keys_.know(key);
+  return keys_.isSet(key);
 }
 
 bool ParameterReader::isText(const std::string& key) {
@@ -82,13 +85,13 @@ bool ParameterReader::isGroup(const std::string& key) {
 }
 
 XmlRpcValue* ParameterReader::find(const std::string& key) {
-  read_.insert(key);
+  keys_.read(key);
   return has(key) ? &tree_[key] : nullptr;
 }
 
 void ParameterReader::fail(const std::string& key, const std::string& expected) const {
-  const std::string state = isSet(key) ? " is " + shownText(written(tree_[key])) : " is missing";
-  const std::string misspelt = isSet(key) ? "" : nearestName(key, notRead());
+  const std::string state = keys_.isSet(key) ? " is " + shownText(written(tree_[key])) : " is missing";
+  const std::string misspelt = keys_.misspellingOf(key);
   throw ParameterError("parameter " + name_ + "/" + key + state + ", expected " + expected +
                        (misspelt.empty() ? "" : "; is it " + misspelt + "?"));
 }
@@ -146,7 +149,7 @@ std::string ParameterReader::name(const std::string& key, const std::string& fal
 
 int ParameterReader::choice(const std::string& key, std::initializer_list<const char*> choices, int fallback) {
   const std::string value = text(key, "");
-  if (!isSet(key)) return fallback;
+  if (!keys_.isSet(key)) return fallback;
   std::string expected = "one of";
   int index = 0;
   for (const char* choice : choices) {
@@ -232,26 +235,9 @@ std::vector<ParameterReader> ParameterReader::list(const std::string& key) {
   return readers;
 }
 
-std::set<std::string> ParameterReader::notRead() const {
-  std::set<std::string> names;
-  if (tree_.getType() != XmlRpcValue::TypeStruct) return names;
-  for (auto member = const_cast<XmlRpcValue&>(tree_).begin(); member != const_cast<XmlRpcValue&>(tree_).end();
-       ++member) {
-    if (read_.count(member->first) == 0) names.insert(member->first);
-  }
-  return names;
-}
-
-std::set<std::string> ParameterReader::unset() const {
-  std::set<std::string> names;
-  for (const std::string& key : known_)
-    if (!isSet(key)) names.insert(key);
-  return names;
-}
-
 std::vector<std::string> ParameterReader::unread() const {
   std::vector<std::string> texts;
-  for (const std::string& name : notRead()) texts.push_back(name_ + "/" + name + suggestion(name, unset()));
+  for (const std::string& name : keys_.unread()) texts.push_back(name_ + "/" + name + keys_.suggestionFor(name));
   return texts;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <initializer_list>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include <XmlRpcValue.h>
 
+#include "common/setting_keys.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
@@ -72,14 +72,10 @@ class ParameterReader {
  private:
   XmlRpc::XmlRpcValue tree_;
   std::string name_;
-  std::set<std::string> read_, known_;  // known_: also those only looked for
+  SettingKeys keys_;
 
   /// Null if it is not set.
   XmlRpc::XmlRpcValue* find(const std::string& key);
-
-  bool isSet(const std::string& key) const;
-  std::set<std::string> unset() const;  ///< of known_
-  std::set<std::string> notRead() const;
 };
 
 }  // namespace sdf_ccd

@@ -7,9 +7,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "common/load_yaml.h"
 #include "common/text_limits.h"
 #include "storage/regular_file.h"
+#include "yaml/load_yaml.h"
 
 namespace sdf_ccd {
 namespace {

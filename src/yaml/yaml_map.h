@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
 
-#include "common/nearest_name.h"
 #include "common/number_text.h"
+#include "common/setting_keys.h"
 #include "sdf_ccd/common/eigen_types.h"
 
 namespace sdf_ccd {
@@ -19,21 +19,14 @@ namespace sdf_ccd {
 /// ignored by mistake.
 class YamlMap {
  public:
-  YamlMap(const YAML::Node& node, std::string what) : node_(node), what_(std::move(what)) {
-    if (!node_.IsMap()) fail(node_, "a map is expected");
-    std::set<std::string> keys;
-    for (const auto& entry : node_) {
-      if (!entry.first.IsScalar()) fail(entry.first, "a key must be a word");
-      if (!keys.insert(entry.first.Scalar()).second) fail(entry.first, "`" + entry.first.Scalar() + "` occurs twice");
-    }
-  }
+  YamlMap(const YAML::Node& node, std::string what) : node_(node), what_(std::move(what)), keys_(keysOf(node)) {}
 
-  bool has(const std::string& key) const { return bool(node_[key]); }
+  bool has(const std::string& key) const { return keys_.isSet(key); }
 
   /// A required node.
   YAML::Node node(const std::string& key) {
-    read_.insert(key);
-    if (!node_[key]) fail(node_, "`" + key + "` is missing");
+    keys_.read(key);
+    if (!has(key)) fail(node_, "`" + key + "` is missing");
     return node_[key];
   }
 
@@ -43,7 +36,7 @@ class YamlMap {
   }
   template <class T>
   T get(const std::string& key, const T& otherwise) {
-    read_.insert(key);
+    keys_.read(key);
     return has(key) ? get<T>(key) : otherwise;
   }
 
@@ -79,7 +72,7 @@ class YamlMap {
     return {convert<double>(list[0], key), convert<double>(list[1], key), convert<double>(list[2], key)};
   }
   Vector3d vector(const std::string& key, const Vector3d& otherwise) {
-    read_.insert(key);
+    keys_.read(key);
     return has(key) ? vector(key) : otherwise;
   }
 
@@ -87,7 +80,7 @@ class YamlMap {
   void finish() const {
     for (const auto& entry : node_) {
       const auto key = entry.first.Scalar();
-      if (read_.count(key) == 0) fail(entry.first, "`" + key + "` is not a known key" + suggestion(key, unused()));
+      if (!keys_.isRead(key)) fail(entry.first, "`" + key + "` is not a known key" + keys_.suggestionFor(key));
     }
   }
 
@@ -96,11 +89,13 @@ class YamlMap {
   }
 
  private:
-  /// Optional keys that are missing.
-  std::set<std::string> unused() const {
-    std::set<std::string> keys;
-    for (const std::string& key : read_)
-      if (!has(key)) keys.insert(key);
+  SettingKeys::Names keysOf(const YAML::Node& node) const {
+    if (!node.IsMap()) fail(node, "a map is expected");
+    SettingKeys::Names keys;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) fail(entry.first, "a key must be a word");
+      if (!keys.insert(entry.first.Scalar()).second) fail(entry.first, "`" + entry.first.Scalar() + "` occurs twice");
+    }
     return keys;
   }
 
@@ -116,7 +111,7 @@ class YamlMap {
 
   YAML::Node node_;
   std::string what_;
-  std::set<std::string> read_;
+  SettingKeys keys_;
 };
 
 }  // namespace sdf_ccd
