@@ -103,14 +103,14 @@ class Placer {
   bool approach(int box, double gap, const Vector3d& from, Isometry3d& X_WB) {
     double moved = 0.0;
     for (double free = 1.0; free > 1e-4 && moved < 2.0 * kFar; moved += std::max(free, 0.0)) {
-      free = leastDistance(box, X_WB) - gap;
+      free = robotDistance(box, X_WB) - gap;
       X_WB.translation() -= std::max(free, 0.0) * from;
     }
     return moved < 2.0 * kFar;
   }
 
   /// Minimum distance [m] over all poses between the robot's moving bodies and a box at X_WB; at most 1 m.
-  double leastDistance(int box, const Isometry3d& X_WB) {
+  double robotDistance(int box, const Isometry3d& X_WB) {
     fcl_.move(box, X_WB);
     const FclScene::Ball own = fcl_.ball(box);
     double least = 1.0;

@@ -4,16 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <optional>
 #include <stdexcept>
-#include <type_traits>
 
 #include "body/body_shell.h"
-#include "body/body_triangles.h"
 #include "body/coarsen.h"
 #include "body/doubtful_surface.h"
 #include "body/element_options.h"
-#include "body/geometry_keys.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/opening_caps.h"
@@ -250,10 +246,8 @@ bool needsWitnesses(const BodyDescription& body) {
                                                    [](const GeometryDescription& part) { return isHalfSpace(part); });
 }
 
-namespace {
-
-BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                       MeshPool& pool, const Progress& progress) {
+BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                        MeshPool& pool, const Progress& progress) {
   BuiltBody built;
   Body& body = built.body;
   static_cast<BodyPlace&>(body) = description;
@@ -274,71 +268,6 @@ BuiltBody buildOwnBody(const BodyDescription& description, const BodyNeeds& need
   }
   if (!body.failure.empty()) built.report.field = "failed";
   return built;
-}
-
-template <class T>
-void appendTo(std::string& key, const T& number) {
-  static_assert(std::is_arithmetic_v<T>);
-  key.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
-/// An absent number differs from zero.
-template <class T>
-void appendTo(std::string& key, const std::optional<T>& number) {
-  appendTo(key, number.has_value());
-  if (number) appendTo(key, *number);
-}
-
-/// Geometry and options of a body, with the names of meshes, which warnings contain.
-std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                       GeometryKeys& keys) {
-  const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
-               exact_depths, is_shared, max_error, divides_max_error] = options;
-  static_cast<void>(cache);
-  static_cast<void>(is_shared);
-  const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
-  const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
-  const auto& [field, shell, edges_only, decides, witnesses, triangles, surface] = needs;
-  static_cast<void>(triangles);  // added to the shared body, as the surface
-  static_cast<void>(surface);
-  std::string key = keys.keyOf(description);
-  const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
-  add(cells, cell_size, field_error, band, max_bytes);
-  add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
-  add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, divides_max_error);
-  add(field, shell, edges_only, decides, witnesses);
-  for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
-  return key;
-}
-
-}  // namespace
-
-BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                    MeshPool& pool, const Progress& progress) {
-  if (!description.failure.empty() || !needs.any()) return buildOwnBody(description, needs, options, pool, progress);
-  WeakStore<BuiltBody>& shared = pool.content().bodies;
-  const std::string key = contentKey(description, needs, options, pool.keys());
-  std::shared_ptr<const BuiltBody> known = shared.find(key);
-  const bool was_known = known != nullptr;
-  if (!was_known) {
-    BuiltBody built = buildOwnBody(description, needs, options, pool, progress);
-    if (!built.body.failure.empty()) return built;
-    known = shared.keep(key, std::make_shared<const BuiltBody>(std::move(built)));
-  }
-  BuiltBody mine = *known;
-  mine.body.content = known;
-  static_cast<BodyPlace&>(mine.body) = description;
-  mine.report.name = description.name;
-  if (was_known) countAsShared(mine.report);
-  if (needs.triangles) mine.body.triangles = trianglesOf(description, pool);
-  if (mine.body.triangles && !was_known) mine.report.shell_bytes += mine.body.triangles->bytes();
-  if (needs.surface) mine.body.surface = surfaceOf(description, pool);
-  return mine;
-}
-
-void countAsShared(BodyReport& report) {
-  if (report.field != "exact" && report.field != "left out") report.field = "shared";
-  report.field_bytes = report.shell_bytes = 0;
 }
 
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool) {

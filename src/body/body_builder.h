@@ -24,19 +24,16 @@ struct BuiltBody {
   BodyReport report;
 };
 
-/// Builds, or reads from the cache, what is needed of a body; meshes of equal content once for all bodies of a pool. If
-/// this fails, Body::failure says why.
+/// Builds, or reads from the cache, field, shell and witnesses of a body, as far as they are needed. If this fails,
+/// Body::failure says why.
 ///
 /// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays
 /// valid for the union: a location q of its surface is outside the sibling, so (distances being
 /// 1-Lipschitz) the nearest point to q is no deeper in it than the radius, and is kept. Kept points
 /// inside a sibling have no area. Siblings that are meshes count only if their field is built and their
 /// sign is reliable.
-BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                    MeshPool& pool, const Progress& progress);
-
-/// Marks a report's body as made of another body's data, without memory of its own.
-void countAsShared(BodyReport& report);
+BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                        MeshPool& pool, const Progress& progress);
 
 /// The triangles of a body's geometry; null if it has none.
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool);

@@ -15,6 +15,13 @@ void setShellSpacing(double spacing, BodyOptions& options) {
   options.shell.vertex_spacing = kVertices * spacing;
 }
 
+ShellOptions shellForField(double field_error) {
+  constexpr double kTwoCells = 2.3;  // in a uniform grid's error bounds
+  ShellOptions options;
+  options.spacing = kTwoCells * field_error;
+  return options;
+}
+
 void setMotionErrors(double sampling, double chord_tolerance, BodyOptions& options) {
   options.motion_error = 2.0 * sampling;
   options.motion_margin = options.motion_error + chord_tolerance;

@@ -11,6 +11,9 @@ void setFieldResolution(const FieldOptions& field, BodyOptions& options);
 /// Sets a spacing of shell points [m] that does not follow the elements' sizes, and that of mesh vertices.
 void setShellSpacing(double spacing, BodyOptions& options);
 
+/// The shell that goes with a field: its points are two cells of a uniform grid with this error bound [m] apart.
+ShellOptions shellForField(double field_error);
+
 /// Sets the errors of motions that the bands of fields allow for.
 /// @param sampling         of each body's sampled motion [m].
 /// @param chord_tolerance  ChordOptions::tolerance [m].

@@ -13,7 +13,7 @@ struct ShellPart {
   const DistanceField* field;  ///< frame G; null if it is not known or not trusted
 };
 
-/// The shell of all parts together, frame B, without the points deep inside other parts (see buildBody()).
+/// The shell of all parts together, frame B, without the points deep inside other parts (see buildUnshared()).
 ///
 /// contactGap() holds for it, also where parts overlap and their surfaces meet in seams that are no edges of theirs:
 /// take an extreme point x of the convex hull of the intersection of bodies A and B. A part with x inside, or on a flat

@@ -3,7 +3,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "body/body_builder.h"
+#include "body/build_body.h"
 
 namespace sdf_ccd {
 namespace {

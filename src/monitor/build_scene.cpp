@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "body/body_builder.h"
+#include "body/build_body.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "body/build_body.h"
+
 namespace sdf_ccd {
 namespace {
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "body/build_body.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
 #include "monitor/scene_cost.h"

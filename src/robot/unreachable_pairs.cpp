@@ -33,7 +33,7 @@ std::string beyond(const RobotModel& robot, const RobotState& state, const Robot
 }
 
 /// Lower bound of the distance of two points that move along screws, from their positions at both ends.
-double leastDistance(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMotion& X_WB, const Vector3d& p_B) {
+double distanceBound(const ScrewMotion& X_WA, const Vector3d& p_A, const ScrewMotion& X_WB, const Vector3d& p_B) {
   const double start = (X_WA.start() * p_A - X_WB.start() * p_B).norm();
   const double end = (X_WA.end() * p_A - X_WB.end() * p_B).norm();
   return 0.5 * (start + end - X_WA.maxTravel({p_A, 0.0}) - X_WB.maxTravel({p_B, 0.0}));
@@ -137,7 +137,7 @@ std::vector<UncheckedPair> reachableAlong(const CycleMotion& motion, const std::
     bool may_meet = !is_known;
     for (std::size_t i = 1; i < motion.times.size() && !may_meet; ++i) {
       const ScrewMotion X_WA(motion.pose(a, i - 1), motion.pose(a, i)), X_WB(motion.pose(b, i - 1), motion.pose(b, i));
-      may_meet = !(leastDistance(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >
+      may_meet = !(distanceBound(X_WA, pair.ball_a.center, X_WB, pair.ball_b.center) >
                    pair.ball_a.radius + pair.ball_b.radius);
     }
     if (may_meet)

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <utility>
 
+#include "body/body_options.h"
 #include "build_cost.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
@@ -21,9 +22,8 @@ using Clock = std::chrono::steady_clock;
 
 /// @param field_error  error bound of the field [m].
 ShellOptions shellOptions(const MeshBuild& build, double field_error) {
-  constexpr double kTwoCells = 2.3;  // of a uniform grid, in its error bounds
-  ShellOptions options;
-  options.spacing = build.spacing.value_or(kTwoCells * field_error);
+  ShellOptions options = shellForField(field_error);
+  if (build.spacing) options.spacing = *build.spacing;
   return options;
 }
 

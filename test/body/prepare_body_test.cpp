@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "body/body_builder.h"
 #include "body/body_triangles.h"
+#include "body/build_body.h"
 #include "oracle/failure.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/sdf_ccd.h"
