@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "bound/deepest_place.h"
-#include "bound/places.h"
+#include "bound/deepest_point.h"
 #include "bound/reference.h"
 #include "bound/tally.h"
+#include "bound/test_points.h"
 #include "bound/verdicts.h"
 #include "contact/penalty.h"
 #include "field/adaptive/adaptive_grid.h"
@@ -35,13 +35,13 @@ class FieldStudy {
       : field_(field), mesh_(mesh), rounding_(1e-12 * boundingBox(mesh.mesh()).sizes().maxCoeff()) {}
 
   /// Distances and their bounds at points.
-  void checkPoints(const std::vector<ExactPlace>& places) {
-    for (const ExactPlace& place : places) {
-      const FieldSample sample = field_.sample(place.p);
-      const bool near = std::abs(place.distance) <= field_.band();
-      tally(near ? "distance" : "distance_far").add(std::abs(sample.value - place.distance), sample.error);
-      const DistanceBounds bounds = field_.bounds(place.p);
-      tally("bounds").check(bounds.low <= place.distance + rounding_ && place.distance - rounding_ <= bounds.high);
+  void checkPoints(const std::vector<ExactPoint>& points) {
+    for (const ExactPoint& point : points) {
+      const FieldSample sample = field_.sample(point.p);
+      const bool near = std::abs(point.distance) <= field_.band();
+      tally(near ? "distance" : "distance_far").add(std::abs(sample.value - point.distance), sample.error);
+      const DistanceBounds bounds = field_.bounds(point.p);
+      tally("bounds").check(bounds.low <= point.distance + rounding_ && point.distance - rounding_ <= bounds.high);
     }
   }
 
@@ -87,7 +87,7 @@ class FieldStudy {
       const LeastDistance least = leastDistance(field_, segment);
       const double bound = std::max(deepest + least.high, -least.low - deepest);
       const double fine = 1e-5 * field_.errorBound();
-      const DeepestPlace exact = deepestOn(mesh_, segment, {fine, 1e3 * fine, field_.band()});
+      const DeepestPoint exact = deepestOn(mesh_, segment, {fine, 1e3 * fine, field_.band()});
       addDepth("depth", deepest, exact.depth, bound + exact.tolerance);
     }
   }
@@ -161,15 +161,15 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   const ExactSurface mesh(named.mesh);
   const double side = boundingBox(named.mesh).sizes().maxCoeff();
   Random random(3);
-  const std::vector<ExactPlace> places = placesOfMesh(mesh, options.segments, random);
+  const std::vector<ExactPoint> points = pointsOfMesh(mesh, options.segments, random);
   const std::vector<Segment> segments = segmentsOfMesh(mesh, options.segments, random);
-  std::vector<ExactPlace> some_places = places;
+  std::vector<ExactPoint> some_points = points;
   std::vector<Segment> some_segments = segments;
-  std::shuffle(some_places.begin(), some_places.end(), random);
+  std::shuffle(some_points.begin(), some_points.end(), random);
   std::shuffle(some_segments.begin(), some_segments.end(), random);
-  some_places.resize(std::min(some_places.size(), kCompared));
+  some_points.resize(std::min(some_points.size(), kCompared));
   some_segments.resize(std::min(some_segments.size(), kCompared));
-  const ReferenceDifference difference = compareWithCgal(mesh, some_places, some_segments);
+  const ReferenceDifference difference = compareWithCgal(mesh, some_points, some_segments);
   const auto reference = [&](const char* metric, double value, const char* unit) {
     print({"bound", named.name + "/reference", "cgal", metric, value, unit, int(kCompared)});
   };
@@ -182,8 +182,8 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   for (const StudyField& wanted : studyFields(named, options)) {
     withField(named, wanted, [&](const DistanceField& field) {
       FieldStudy study(field, mesh);
-      study.checkPoints(places);
-      study.checkPoints(placesOfField(field, mesh, options.segments, random));
+      study.checkPoints(points);
+      study.checkPoints(pointsOfField(field, mesh, options.segments, random));
       study.checkSegments(segments);
       study.checkSegments(segmentsOfField(field, mesh, options.segments, random));
       study.checkDepths(some_segments);

@@ -85,18 +85,18 @@ void study(const Case& each, const StudyOptions& options) {
   prepared.exact_depths = true;
   const auto scene = test::build({test::body("a", each.a), test::body("b", each.b)}, prepared);
 
-  struct Asked {
-    std::string system;
+  struct System {
+    std::string name;
     CycleRequest request;
     std::unique_ptr<Monitor> monitor;
   };
-  std::vector<Asked> all;
-  for (const char* system : {"verdict", "contacts", "wrenches", "deepest"}) {
-    Asked asked{system, {}, std::make_unique<Monitor>(scene, MonitorOptions())};
-    asked.request.contacts = asked.system != "verdict";
-    asked.request.wrenches = asked.system == "wrenches";
-    if (asked.system == "deepest") asked.request.refine = Refinement::kDeepest;
-    all.push_back(std::move(asked));
+  std::vector<System> all;
+  for (const char* name : {"verdict", "contacts", "wrenches", "deepest"}) {
+    System system{name, {}, std::make_unique<Monitor>(scene, MonitorOptions())};
+    system.request.contacts = system.name != "verdict";
+    system.request.wrenches = system.name == "wrenches";
+    if (system.name == "deepest") system.request.refine = Refinement::kDeepest;
+    all.push_back(std::move(system));
   }
   double contact = 0.0, uncertain = 0.0;
   for (const CycleMotion& cycle : cycles) {
@@ -105,9 +105,9 @@ void study(const Case& each, const StudyOptions& options) {
     uncertain += verdict == Verdict::kUncertain;
   }
   std::vector<Task> tasks;
-  for (const Asked& asked : all)
-    tasks.push_back({asked.system, [&](std::size_t i) {
-                       asked.monitor->run(cycles[i % kCycles], asked.request);
+  for (const System& system : all)
+    tasks.push_back({system.name, [&](std::size_t i) {
+                       system.monitor->run(cycles[i % kCycles], system.request);
                        return std::size_t{1};
                      }});
   const auto fcl_a = fclShape(each.a), fcl_b = fclShape(each.b);
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   using namespace sdf_ccd::benchmark;
   StudyOptions full, quick;
   quick.measure.runs = 3;
-  return runStudy(argc, argv, "Time of a cycle of one pair in contact, by what is asked", full, quick,
+  return runStudy(argc, argv, "Time of a cycle of one pair in contact, by what is requested", full, quick,
                   [](const StudyOptions& options) {
                     for (const Case& each : cases())
                       if (isWanted(options.cases, each.name)) study(each, options);

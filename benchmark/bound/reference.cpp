@@ -32,7 +32,7 @@ double distanceTo(const Kernel::Point_3& start, const Hit& hit) {
 
 }  // namespace
 
-ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const std::vector<ExactPlace>& places,
+ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const std::vector<ExactPoint>& points,
                                     const std::vector<Segment>& segments) {
   Triangles triangles;
   const std::vector<Vector3d>& v = mesh.mesh().vertices;
@@ -42,9 +42,9 @@ ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const s
                   triangles.end());
   Tree tree(triangles.begin(), triangles.end());
   ReferenceDifference difference;
-  for (const ExactPlace& place : places) {
-    const double distance = std::sqrt(tree.squared_distance(point(place.p)));
-    difference.distance = std::max(difference.distance, std::abs(distance - std::abs(place.distance)));
+  for (const ExactPoint& exact : points) {
+    const double distance = std::sqrt(tree.squared_distance(point(exact.p)));
+    difference.distance = std::max(difference.distance, std::abs(distance - std::abs(exact.distance)));
   }
   std::vector<Hit> hits;
   for (const Segment& segment : segments) {

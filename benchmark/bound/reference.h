@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bound/places.h"
+#include "bound/test_points.h"
 
 namespace sdf_ccd::benchmark {
 
@@ -14,7 +14,7 @@ struct ReferenceDifference {
 };
 
 /// Runs the queries of the reference with CGAL too (exact predicates, constructions in doubles).
-ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const std::vector<ExactPlace>& places,
+ReferenceDifference compareWithCgal(const precision::ExactSurface& mesh, const std::vector<ExactPoint>& points,
                                     const std::vector<Segment>& segments);
 
 }  // namespace sdf_ccd::benchmark

@@ -15,7 +15,7 @@ using namespace precision;
 
 constexpr int kSamples = 33;             ///< sampled poses of a motion
 constexpr double kFinestSpacing = 5e-3;  ///< [box sides]; finer shells take minutes
-constexpr int kSurfacePlaces = 2000;     ///< points that a clearance is compared with, of either kind
+constexpr int kSurfacePoints = 2000;     ///< points that a clearance is compared with, of either kind
 
 Isometry3d moved(const Isometry3d& X, const Vector3d& middle, const Vector3d& travel, double turn, Random& random) {
   Isometry3d step = Isometry3d::Identity();
@@ -37,13 +37,13 @@ BodyDescription described(const std::string& name, const TriangleMesh& mesh) {
 VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
     : mesh_(mesh), model_(fclModel(mesh.mesh())), side_(boundingBox(mesh.mesh()).sizes().maxCoeff()) {
   Random random(5);
-  const SurfaceSampler places(mesh.mesh());
+  const SurfaceSampler sampler(mesh.mesh());
   surface_ = mesh.mesh().vertices;
-  while (surface_.size() > kSurfacePlaces) {
+  while (surface_.size() > kSurfacePoints) {
     std::swap(surface_[random() % surface_.size()], surface_.back());
     surface_.pop_back();
   }
-  for (int i = 0; i < kSurfacePlaces; ++i) surface_.push_back(places(random));
+  for (int i = 0; i < kSurfacePoints; ++i) surface_.push_back(sampler(random));
   const Vector3d center = boundingBox(mesh.mesh()).center();
   for (int i = 0; i < motions; ++i) {
     Isometry3d start = Isometry3d::Identity();
@@ -87,7 +87,7 @@ VerdictStudy::VerdictStudy(const ExactSurface& mesh, int motions)
     }
     ExactMotion motion{start, end, {}};
     const ScrewMotion screw(start, end);
-    for (int k = 0; k < kSamples; ++k) motion.touches.push_back(sharesPlace(screw.pose(double(k) / (kSamples - 1))));
+    for (int k = 0; k < kSamples; ++k) motion.touches.push_back(sharesPoint(screw.pose(double(k) / (kSamples - 1))));
     motions_.push_back(std::move(motion));
   }
 }
@@ -101,7 +101,7 @@ bool VerdictStudy::touch(const Isometry3d& X_WB) const {
 }
 
 /// Whether the solids intersect, also if one is wholly inside the other.
-bool VerdictStudy::sharesPlace(const Isometry3d& X_WB) const {
+bool VerdictStudy::sharesPoint(const Isometry3d& X_WB) const {
   const Vector3d& p = mesh_.mesh().vertices[mesh_.mesh().triangles[0][0]];
   return touch(X_WB) || mesh_.surface().inside(X_WB * p) || mesh_.surface().inside(X_WB.inverse() * p);
 }
@@ -146,7 +146,7 @@ void VerdictStudy::compare(const ExactMotion& motion, const PairResult& result, 
   if (result.verdict == Verdict::kUncertain) ++tally.uncertain;
   if (result.verdict == Verdict::kContact) {
     ++tally.contact;
-    tally.verdicts.check(sharesPlace(screw.pose(result.deepest.time)));
+    tally.verdicts.check(sharesPoint(screw.pose(result.deepest.time)));
   }
   if (result.intervals.empty()) return;
   // The deepest point lies on one surface and `depth` deep inside the other.

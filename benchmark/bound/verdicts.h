@@ -38,7 +38,7 @@ class VerdictStudy {
 
  private:
   bool touch(const Isometry3d& X_WB) const;
-  bool sharesPlace(const Isometry3d& X_WB) const;
+  bool sharesPoint(const Isometry3d& X_WB) const;
   void compare(const ExactMotion& motion, const PairResult& result, VerdictTally& tally) const;
 
   const precision::ExactSurface& mesh_;

@@ -10,10 +10,11 @@ thread_local CancelRequest current;
 
 }  // namespace
 
-CancelScope::CancelScope(const std::atomic<bool>& asked) : outer_(std::exchange(current, {&asked, current.deadline})) {}
+CancelScope::CancelScope(const std::atomic<bool>& requested)
+    : outer_(std::exchange(current, {&requested, current.deadline})) {}
 
 CancelScope::CancelScope(CancelRequest::Clock::time_point deadline)
-    : outer_(std::exchange(current, {current.asked, std::min(current.deadline, deadline)})) {}
+    : outer_(std::exchange(current, {current.requested, std::min(current.deadline, deadline)})) {}
 
 CancelScope::CancelScope(const CancelPoint& point) : outer_(std::exchange(current, point.request())) {}
 

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd::lanes {
 
-/// Three coordinates in each lane.
+/// Three coordinates in each lane of compiler_lanes.h. (Vectors of Highway are in query/lanes.)
 template <class Lanes>
 struct LaneVector {
   Lanes x, y, z;

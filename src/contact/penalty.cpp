@@ -193,8 +193,9 @@ class Integrator {
     if (depth.depth >= input_.field.band() - input_.field.errorBound()) depth.reach = reachOf(point, interval);
     if (!request_.depth_errors) return depth;
     depth.error = input_.field.sample(depth.p_F).error;
-    depth.least = depth.depth - depth.error;
-    if (depth.depth > input_.field.band()) depth.least = std::max(depth.least, -input_.field.bounds(depth.p_F).high);
+    depth.depth_lower_bound = depth.depth - depth.error;
+    if (depth.depth > input_.field.band())
+      depth.depth_lower_bound = std::max(depth.depth_lower_bound, -input_.field.bounds(depth.p_F).high);
     return depth;
   }
 

@@ -99,7 +99,7 @@ AlignedBox3d boxOf(const TriangleMesh& mesh, const Patch& patch) {
   return box;
 }
 
-/// Distance from a triangle at which seesOutside() is asked: more than it widens triangles by [m].
+/// Distance from a triangle at which seesOutside() is queried: more than it widens triangles by [m].
 double stepFrom(const TriangleMesh& mesh) {
   return 1e-5 * boundingBox(mesh).sizes().maxCoeff();
 }

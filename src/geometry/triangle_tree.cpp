@@ -111,7 +111,7 @@ void TriangleTree::trianglesWithin(const Vector3d& p, double radius, std::vector
   }
 }
 
-double TriangleTree::farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double enough) const {
+double TriangleTree::farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double limit) const {
   struct Pending {
     double farthest;  // upper bound
     std::int32_t node;
@@ -141,7 +141,7 @@ double TriangleTree::farthestAlong(const Vector3d& n, const Vector3d& p, double 
       if (!(along > farthest && triangles_[i].mayBeWithin(radius, p))) continue;
       if ((triangles_[i].closest(p) - p).squaredNorm() > radius2) continue;
       farthest = along;
-      if (farthest > enough) return farthest;
+      if (farthest > limit) return farthest;
     }
   }
   return farthest;

@@ -54,8 +54,8 @@ class TriangleTree {
   }
 
   /// The largest n·(x − p) of all corners x of triangles within `radius` of p, or −radius if none is larger [m]. Once
-  /// that exceeds `enough`, some value above it is returned.
-  double farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double enough) const;
+  /// that exceeds `limit`, some value above it is returned.
+  double farthestAlong(const Vector3d& n, const Vector3d& p, double radius, double limit) const;
 
   /// The first triangle, by its index in the mesh, that the ray from p along the unit vector `direction` meets farther
   /// than `min_distance` from p; -1 if there is none. Up to rounding: a ray along an edge may meet either side or none.

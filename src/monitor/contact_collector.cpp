@@ -64,11 +64,11 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
     const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
-    std::size_t asked = chords;
+    std::size_t queried = chords;
     const auto queryBlock = [&](std::size_t first) -> const ChordPath& {
       const ChordPath& block = blockOf(path, first, size);
-      if (asked != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
-      asked = first;
+      if (queried != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
+      queried = first;
       return block;
     };
     // Which points bear force depends on whether the surfaces cross at any time.
@@ -142,8 +142,8 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
-    if (certain && needsErrors(input.field) && depth.least > certain_.depth)
-      certain_ = {depth.least, shell_is_a, input.shell.points[hit.point]};
+    if (certain && needsErrors(input.field) && depth.depth_lower_bound > certain_.depth)
+      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.points[hit.point]};
     found_.push_back(found);
   }
   joinWhereMany();

@@ -148,7 +148,7 @@ class DeepestSearch::MotionSearch {
     for (const SolidPart& part : solid_) {
       HullDepth found;
       found.bound = hull.size - part.field->lowerBound(part.X_GB * hull.center);
-      if (!search_.isDone(found.bound + beyond)) found = hullDepth(part, hull, search_.enough());
+      if (!search_.isDone(found.bound + beyond)) found = hullDepth(part, hull, search_.sufficientBound());
       for (int k = 0; k < 6; ++k) highest.at_corners[k] = std::max(highest.at_corners[k], found.at_corners[k]);
       highest.bound = std::max(highest.bound, found.bound);
     }

@@ -92,8 +92,8 @@ class DeepestSearch {
   };
 
   static bool isLess(const Piece& a, const Piece& b) { return a.bound < b.bound; }
-  double enough() const { return best_.depth + resolution_; }
-  bool isDone(double bound) const { return bound <= enough(); }
+  double sufficientBound() const { return best_.depth + resolution_; }
+  bool isDone(double bound) const { return bound <= sufficientBound(); }
   void push(const Piece& piece);
 
   double resolution_ = 0.0;

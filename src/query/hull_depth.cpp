@@ -13,8 +13,8 @@ constexpr double kParallel = 1.0 - 1e-9;
 
 class HullSearch {
  public:
-  HullSearch(const SolidPart& part, const Hull& hull, double enough)
-      : part_(part), center_(part.X_GB * hull.center), size_(hull.size), enough_(enough) {
+  HullSearch(const SolidPart& part, const Hull& hull, double sufficient_bound)
+      : part_(part), center_(part.X_GB * hull.center), size_(hull.size), sufficient_bound_(sufficient_bound) {
     for (int k = 0; k < 6; ++k) corners_[k] = part.X_GB * hull.corners[k];
   }
 
@@ -49,7 +49,7 @@ class HullSearch {
   }
 
  private:
-  bool isDone() const { return found_.bound <= enough_; }
+  bool isDone() const { return found_.bound <= sufficient_bound_; }
 
   Vector3d normalOf(int triangle) const {
     return areaNormal(part_.solid->tree().triangle(triangle).corners()).normalized();
@@ -150,7 +150,7 @@ class HullSearch {
   const SolidPart& part_;
   const Vector3d center_;
   std::array<Vector3d, 6> corners_;
-  const double size_, enough_;
+  const double size_, sufficient_bound_;
 
   HullDepth found_;
   std::array<HullValues, 5> sides_;  // per bound: its values at the corners, between which it is convex
@@ -160,8 +160,8 @@ class HullSearch {
 
 }  // namespace
 
-HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough) {
-  return HullSearch(part, hull, enough).run();
+HullDepth hullDepth(const SolidPart& part, const Hull& hull, double sufficient_bound) {
+  return HullSearch(part, hull, sufficient_bound).run();
 }
 
 }  // namespace sdf_ccd

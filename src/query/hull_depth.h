@@ -24,7 +24,7 @@ struct HullDepth {
 
 /// Bounds the depth in one element of a body. The bounds and why they hold: see DeepestSearch.
 /// @param hull    in the body's frame.
-/// @param enough  a smaller bound is not tightened [m].
-HullDepth hullDepth(const SolidPart& part, const Hull& hull, double enough);
+/// @param sufficient_bound  a smaller bound is not tightened [m].
+HullDepth hullDepth(const SolidPart& part, const Hull& hull, double sufficient_bound);
 
 }  // namespace sdf_ccd

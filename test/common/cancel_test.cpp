@@ -12,7 +12,7 @@ namespace {
 
 TEST(Cancel, WithoutAScopeNothingIsCancelled) {
   EXPECT_NO_THROW(checkCancelled());
-  EXPECT_FALSE(CancelPoint().asked());
+  EXPECT_FALSE(CancelPoint().requested());
 }
 
 TEST(Cancel, PassesHandlersOfFailures) {

@@ -97,8 +97,8 @@ TEST(EmptySphere, BallsOfAdaptiveGridsAreFreeOfSurface) {
         const Vector3d cell_center = shape.origin + shape.cell * (c.cast<double>().array() + 0.5).matrix();
         tally.add(cell_center, shape.cell, center, block.ball_radius, block.inside);
         if (HasFatalFailure()) return;
-        ASSERT_LE(std::abs(boxDistance(cell_center)), block.most);
-        ASSERT_GE(std::abs(boxDistance(cell_center)), block.most - 0.2 * shape.cell);
+        ASSERT_LE(std::abs(boxDistance(cell_center)), block.upper_bound);
+        ASSERT_GE(std::abs(boxDistance(cell_center)), block.upper_bound - 0.2 * shape.cell);
       }
   EXPECT_GT(tally.far, 500);
   EXPECT_GT(tally.apart, tally.far / 3);

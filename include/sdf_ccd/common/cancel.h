@@ -14,7 +14,7 @@ struct CancelRequest {
   /// Of deadlines: never set back.
   using Clock = std::chrono::steady_clock;
 
-  const std::atomic<bool>* asked = nullptr;
+  const std::atomic<bool>* requested = nullptr;
   Clock::time_point deadline = Clock::time_point::max();
 };
 
@@ -26,15 +26,15 @@ class CancelPoint {
   CancelPoint();
 
   /// Whether the work is to end: the flag is set, or the deadline has passed.
-  bool asked() const {
-    if (request_.asked && request_.asked->load(std::memory_order_relaxed)) return true;
+  bool requested() const {
+    if (request_.requested && request_.requested->load(std::memory_order_relaxed)) return true;
     constexpr auto kNever = CancelRequest::Clock::time_point::max();
     return request_.deadline != kNever && CancelRequest::Clock::now() >= request_.deadline;
   }
 
   /// @throws Cancelled if it has been requested.
   void check() const {
-    if (asked()) throw Cancelled();
+    if (requested()) throw Cancelled();
   }
 
   /// What ends this work.
@@ -51,8 +51,8 @@ class CancelPoint {
 /// the inner flag replaces the outer one, and the earlier deadline counts.
 class CancelScope {
  public:
-  /// @param asked  must outlive the scope.
-  explicit CancelScope(const std::atomic<bool>& asked);
+  /// @param requested  must outlive the scope.
+  explicit CancelScope(const std::atomic<bool>& requested);
   /// The flag of an outer scope stays.
   explicit CancelScope(CancelRequest::Clock::time_point deadline);
 

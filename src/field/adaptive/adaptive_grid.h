@@ -131,7 +131,7 @@ struct AdaptiveBlock {
   Vector3d ball_center = Vector3d::Zero();  ///< [units]
   double ball_radius = 0.0;                 ///< [m]
   bool inside = false;
-  double most = 0.0;  ///< far: upper bound of |φ| at the block's own centre [m]
+  double upper_bound = 0.0;  ///< far: of |φ| at the block's own centre [m]
 };
 
 /// Signed distances in cells whose size follows the shape of the surface (the paper's "future work"): a coarse grid

@@ -30,7 +30,7 @@ DistanceBounds farBounds(const AdaptiveGrid& grid, const LocatedBlock& at) {
   const Vector3d from_low = at.block.side * at.u, half = Vector3d::Constant(0.5 * at.block.side);
   const double away = (from_low - half).norm() * shape.unit();
   const double from_ball = (at.block.low.cast<double>() + from_low - at.block.ball_center).norm() * shape.unit();
-  const double low = std::max(at.block.ball_radius - from_ball, shape.band), high = at.block.most + away;
+  const double low = std::max(at.block.ball_radius - from_ball, shape.band), high = at.block.upper_bound + away;
   return at.block.inside ? DistanceBounds{-high, -low} : DistanceBounds{low, high};
 }
 

@@ -106,27 +106,27 @@ CellFit::Lattice CellFit::finestLattice(const Cube& cube, const NearTriangles& n
 }
 
 Deviation CellFit::deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                             const Lattice& exact, const CornerValues& leaf, double most) {
+                             const Lattice& exact, const CornerValues& leaf, double max_deviation) {
   const Deviation seen = deviationOf(difference(refined(leaf), exact));
-  if (seen.largest() > most) return seen;
+  if (seen.largest() > max_deviation) return seen;
   const Deviation whole = bound.deviation(step_ * cube.side, cornersOf(cube), leaf, seen);
   // A bound far above the errors found is due to the gradients' range: parts have a smaller range.
   constexpr double kTight = 2.0;
-  if (whole.largest() <= std::min(most, kTight * seen.largest())) return whole;
-  const Deviation in_parts = deviationInParts(cube, near, bound, exact, leaf, most);
-  return whole.largest() < std::min(most, in_parts.largest()) ? whole : in_parts;
+  if (whole.largest() <= std::min(max_deviation, kTight * seen.largest())) return whole;
+  const Deviation in_parts = deviationInParts(cube, near, bound, exact, leaf, max_deviation);
+  return whole.largest() < std::min(max_deviation, in_parts.largest()) ? whole : in_parts;
 }
 
 Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                                    const Lattice& exact, const CornerValues& leaf, double most) {
+                                    const Lattice& exact, const CornerValues& leaf, double max_deviation) {
   const Lattice values = refined(leaf);
   Deviation worst = deviationOf(difference(values, exact));
   std::optional<NearOctants> own;
-  for (int k = 0; k < 8 && worst.largest() <= most; ++k) {
+  for (int k = 0; k < 8 && worst.largest() <= max_deviation; ++k) {
     const Cube part{cube.low + cube.side / 2 * cubeCorner(k), cube.side / 2};
     const CornerValues part_exact = octantOf(exact, k), part_leaf = octantOf(values, k);
     Deviation found = bound.deviation(step_ * part.side, part_exact, part_leaf, worst);
-    if (found.largest() > most) {
+    if (found.largest() > max_deviation) {
       if (cube.side < kSteps && !own) own.emplace(near);
       const NearTriangles& part_near = cube.side == kSteps ? octants()[k] : (*own)[k];
       std::optional<GradientBound> own_bound;
@@ -134,9 +134,9 @@ Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near,
         own_bound.emplace(part_near);
         found = own_bound->deviation(step_ * part.side, part_exact, part_leaf, worst);
       }
-      if (found.largest() > most && part.side > 1) {
+      if (found.largest() > max_deviation && part.side > 1) {
         const GradientBound& part_bound = own_bound ? *own_bound : bound;
-        found = deviationInParts(part, part_near, part_bound, latticeOf(part, part_near), part_leaf, most);
+        found = deviationInParts(part, part_near, part_bound, latticeOf(part, part_near), part_leaf, max_deviation);
       }
     }
     worst.include(found);
@@ -145,37 +145,37 @@ Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near,
 }
 
 std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
-                                        double most) {
+                                        double max_deviation) {
   take(cube, 1, near);
   const Vector3i middle = cube.low.array() + cube.side / 2;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
   CornerValues corners = cornersOf(cube);
   const double mean = std::accumulate(corners.begin(), corners.end(), 0.0) / 8.0;
-  if (std::abs(mean - at(middle)) > 2.0 * most) return std::nullopt;
+  if (std::abs(mean - at(middle)) > 2.0 * max_deviation) return std::nullopt;
   // Curvature makes the interpolant deviate to one side: subtracting half of that halves the largest error.
   const Lattice exact = latticeOf(cube, near);
   const Deviation seen = deviationOf(difference(refined(corners), exact));
-  if (seen.above + seen.below > 2.0 * most) return std::nullopt;
+  if (seen.above + seen.below > 2.0 * max_deviation) return std::nullopt;
   for (double& value : corners) value -= 0.5 * (seen.above - seen.below);
   // If the error between these points is too large after this correction, it determines the next one.
   const GradientBound bound(near);
   constexpr int kTries = 4;
   for (int i = 0; i < kTries; ++i) {
     const LeafWord word = scale.encode(corners);
-    const Deviation found = deviation(cube, near, bound, exact, scale.decode(word), most);
-    if (found.largest() <= most) return FittedLeaf{word, found.largest()};
-    if (found.above + found.below > 2.0 * most) break;
+    const Deviation found = deviation(cube, near, bound, exact, scale.decode(word), max_deviation);
+    if (found.largest() <= max_deviation) return FittedLeaf{word, found.largest()};
+    if (found.above + found.below > 2.0 * max_deviation) break;
     for (double& value : corners) value -= 0.5 * (found.above - found.below);
   }
   return std::nullopt;
 }
 
-std::optional<FittedLeaf> CellFit::leaf(const LeafScale& scale, double most) {
-  return leaf({Vector3i::Zero(), kSteps}, near_, scale, most);
+std::optional<FittedLeaf> CellFit::leaf(const LeafScale& scale, double max_deviation) {
+  return leaf({Vector3i::Zero(), kSteps}, near_, scale, max_deviation);
 }
 
-std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, double most) {
-  return leaf(octantCube(k), octants()[k], scale, most);
+std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, double max_deviation) {
+  return leaf(octantCube(k), octants()[k], scale, max_deviation);
 }
 
 FittedLeaf CellFit::roundedLeaf(int k, const LeafScale& scale) {

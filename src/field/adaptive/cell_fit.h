@@ -31,9 +31,9 @@ class CellFit {
   /// For one of the 4×4×4 parts of another cell, reusing its distances.
   CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part);
 
-  /// A leaf for the cell, or for its octant k, if it is proved to differ by at most `most` [m] from φ in it.
-  std::optional<FittedLeaf> leaf(const LeafScale& scale, double most);
-  std::optional<FittedLeaf> octantLeaf(int k, const LeafScale& scale, double most);
+  /// A leaf for the cell, or for its octant k, if it is proved to differ by at most `max_deviation` [m] from φ in it.
+  std::optional<FittedLeaf> leaf(const LeafScale& scale, double max_deviation);
+  std::optional<FittedLeaf> octantLeaf(int k, const LeafScale& scale, double max_deviation);
 
   /// The leaf of the exact distances at an octant's corners, rounded; its bound holds for any 1-Lipschitz function.
   FittedLeaf roundedLeaf(int k, const LeafScale& scale);
@@ -60,7 +60,8 @@ class CellFit {
   double at(const Vector3i& point) const { return values_[index(point)]; }
   void set(const Vector3i& point, double distance) { values_[index(point)] = distance; }
   static Cube octantCube(int k) { return {kSteps / 2 * cubeCorner(k), kSteps / 2}; }
-  std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale, double most);
+  std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
+                                 double max_deviation);
   /// Computes the missing distances at the cube's points, steps + 1 along each side.
   void take(const Cube& cube, int steps, const NearTriangles& near);
   /// The distances at the corners of a cube, which must have been computed before.
@@ -69,14 +70,14 @@ class CellFit {
   Lattice latticeOf(const Cube& cube, const NearTriangles& near);
   /// latticeOf() a cube of two steps, whose middle points are not kept.
   Lattice finestLattice(const Cube& cube, const NearTriangles& near) const;
-  /// Bounds interpolant − φ in a cube. The result is proved if it is at most `most`; else it only says that no such
-  /// bound was proved.
+  /// Bounds interpolant − φ in a cube. The result is proved if it is at most `max_deviation`; else it only says that no
+  /// such bound was proved.
   /// @param exact  the distances at the cube's points.
   /// @param leaf   the interpolant's values at the cube's corners.
   Deviation deviation(const Cube& cube, const NearTriangles& near, const GradientBound& bound, const Lattice& exact,
-                      const CornerValues& leaf, double most);
+                      const CornerValues& leaf, double max_deviation);
   Deviation deviationInParts(const Cube& cube, const NearTriangles& near, const GradientBound& bound,
-                             const Lattice& exact, const CornerValues& leaf, double most);
+                             const Lattice& exact, const CornerValues& leaf, double max_deviation);
 
   const NearTriangles& near_;
   std::optional<NearOctants> octants_;

@@ -65,7 +65,7 @@ class MonitorLoop {
   const TrackedCycle& cycle() const { return cycle_; }
   const CycleResult& result() const { return *result_; }
 
-  /// What was asked of the last cycle.
+  /// What was requested of the last cycle.
   const CycleRequest& request() const { return request_; }
 
   /// The contacts over time, if cycles are requested with contacts (CycleRequest::contacts); else there are none. kJump

@@ -137,7 +137,7 @@ void Queries::answerWith(const Work& work, Response& response) {
     work();
     response.success = true;
   } catch (const Cancelled&) {
-    if (caller.asked()) throw;
+    if (caller.requested()) throw;
     fail("the request takes more than " + numberText(limits_.seconds) +
          " s: split it into parts, or send it again when the computer is less busy");
   } catch (const std::exception& error) {

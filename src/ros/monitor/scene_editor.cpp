@@ -112,7 +112,7 @@ bool SceneEditor::handOver(std::unique_ptr<PreparedWorld> prepared) {
   wake_();
   const CancelPoint cancel;
   for (const auto start = Clock::now();
-       adopted_ != handed_over_.get() && Clock::now() - start < kMaxAdoptWait && !cancel.asked();)
+       adopted_ != handed_over_.get() && Clock::now() - start < kMaxAdoptWait && !cancel.requested();)
     std::this_thread::sleep_for(kPollPeriod);
   const bool is_adopted = adopted_ == handed_over_.get();
   if (is_adopted) withdraw();  // frees the former version

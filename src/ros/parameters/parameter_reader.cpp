@@ -171,13 +171,13 @@ Vector3d ParameterReader::vector(const std::string& key, const Vector3d& fallbac
   return result;
 }
 
-std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t least, std::size_t most) {
+std::vector<double> ParameterReader::numbers(const std::string& key, std::size_t min_count, std::size_t max_count) {
   XmlRpcValue* value = find(key);
-  const std::string expected =
-      "a list of " + std::to_string(least) + (least == most ? "" : " to " + std::to_string(most)) + " finite numbers";
+  const std::string expected = "a list of " + std::to_string(min_count) +
+                               (min_count == max_count ? "" : " to " + std::to_string(max_count)) + " finite numbers";
   if (!value || value->getType() != XmlRpcValue::TypeArray) fail(key, expected);
   const auto size = static_cast<std::size_t>(value->size());
-  if (size < least || size > most) fail(key, expected);
+  if (size < min_count || size > max_count) fail(key, expected);
   std::vector<double> numbers(size);
   for (std::size_t i = 0; i < size; ++i)
     if (!toNumber((*value)[static_cast<int>(i)], numbers[i])) fail(key, expected);

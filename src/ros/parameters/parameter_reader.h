@@ -48,8 +48,8 @@ class ParameterReader {
 
   Vector3d vector(const std::string& key, const Vector3d& fallback);
 
-  /// A list of `least` to `most` finite numbers; fails if it is not set.
-  std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
+  /// A list of `min_count` to `max_count` finite numbers; fails if it is not set.
+  std::vector<double> numbers(const std::string& key, std::size_t min_count, std::size_t max_count);
 
   /// A list of strings, none of them empty; no strings if it is not set.
   std::vector<std::string> texts(const std::string& key);

@@ -10,17 +10,17 @@
 /// Test points and segments in the regions where fields are hardest to get right.
 namespace sdf_ccd::benchmark {
 
-struct ExactPlace {
+struct ExactPoint {
   Vector3d p;
   double distance;  ///< signed, from the mesh [m]
 };
 
 /// `count` points of each kind: anywhere in twice the mesh's box; near the surface; near edges and vertices of
 /// triangles, from 1e-9 of the side on; on the medial axis inside, where two points of the surface are nearest.
-std::vector<ExactPlace> placesOfMesh(const precision::ExactSurface& mesh, std::size_t count, precision::Random& random);
+std::vector<ExactPoint> pointsOfMesh(const precision::ExactSurface& mesh, std::size_t count, precision::Random& random);
 
 /// `count` points of each kind: on faces between cells or leaves and a rounding error beside them; at the band's edge.
-std::vector<ExactPlace> placesOfField(const DistanceField& field, const precision::ExactSurface& mesh,
+std::vector<ExactPoint> pointsOfField(const DistanceField& field, const precision::ExactSurface& mesh,
                                       std::size_t count, precision::Random& random);
 
 /// `count` segments of each kind, all starting outside: both ends in the box, enlarged by a fifth; short ones from near

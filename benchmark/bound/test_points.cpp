@@ -1,4 +1,4 @@
-#include "places.h"
+#include "test_points.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
 
@@ -27,7 +27,7 @@ double anyLength(double side, Random& random) {
 }
 
 /// The point farthest inwards along the normal from which `on_surface` is still the nearest point of the surface.
-Vector3d medialPlace(const ExactSurface& mesh, int triangle, const Vector3d& on_surface) {
+Vector3d medialPoint(const ExactSurface& mesh, int triangle, const Vector3d& on_surface) {
   const Vector3d inward = -areaNormal(mesh.mesh(), triangle).normalized();
   double near = 0.0, far = sideOf(mesh);
   for (int i = 0; i < 40; ++i) {
@@ -64,12 +64,12 @@ Vector3d onFace(const DistanceField& field, const Vector3d& p, int axis) {
 
 }  // namespace
 
-std::vector<ExactPlace> placesOfMesh(const ExactSurface& mesh, std::size_t count, Random& random) {
+std::vector<ExactPoint> pointsOfMesh(const ExactSurface& mesh, std::size_t count, Random& random) {
   const double side = sideOf(mesh);
   AlignedBox3d box = boundingBox(mesh.mesh());
   box = {box.min() - 0.5 * box.sizes(), box.max() + 0.5 * box.sizes()};
-  std::vector<ExactPlace> places;
-  const auto add = [&](const Vector3d& p) { places.push_back({p, mesh.distance(p)}); };
+  std::vector<ExactPoint> points;
+  const auto add = [&](const Vector3d& p) { points.push_back({p, mesh.distance(p)}); };
   for (std::size_t i = 0; i < count; ++i) add(uniformIn(random, box));
   const SurfaceSampler surface(mesh.mesh());
   for (std::size_t i = 0; i < count; ++i) {
@@ -80,16 +80,16 @@ std::vector<ExactPlace> placesOfMesh(const ExactSurface& mesh, std::size_t count
   }
   for (std::size_t i = 0; i < count; ++i) {
     const int triangle = surface.triangle(random);
-    add(medialPlace(mesh, triangle, surface.pointOn(random, triangle)));
+    add(medialPoint(mesh, triangle, surface.pointOn(random, triangle)));
   }
-  return places;
+  return points;
 }
 
-std::vector<ExactPlace> placesOfField(const DistanceField& field, const ExactSurface& mesh, std::size_t count,
+std::vector<ExactPoint> pointsOfField(const DistanceField& field, const ExactSurface& mesh, std::size_t count,
                                       Random& random) {
   const double side = sideOf(mesh), band = field.band();
-  std::vector<ExactPlace> places;
-  const auto add = [&](const Vector3d& p) { places.push_back({p, mesh.distance(p)}); };
+  std::vector<ExactPoint> points;
+  const auto add = [&](const Vector3d& p) { points.push_back({p, mesh.distance(p)}); };
   const SurfaceSampler surface(mesh.mesh());
   for (std::size_t i = 0; i < count; ++i) {
     const int axis = int(random() % 3);
@@ -101,7 +101,7 @@ std::vector<ExactPlace> placesOfField(const DistanceField& field, const ExactSur
   for (std::size_t i = 0; i < count; ++i) {
     add(surface(random) + uniform(random, 0.95, 1.05) * band * direction(random));
   }
-  return places;
+  return points;
 }
 
 std::vector<Segment> segmentsOfMesh(const ExactSurface& mesh, std::size_t count, Random& random) {
