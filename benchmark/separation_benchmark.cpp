@@ -12,8 +12,8 @@
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "query/separation.h"
-#include "query/triangle_pairs_scalar.h"
+#include "query/surfaces/separation.h"
+#include "query/surfaces/triangle_pairs_scalar.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

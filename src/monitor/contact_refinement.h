@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "query/deepest_point.h"
+#include "query/surfaces/deepest_point.h"
 #include "surface_pair.h"
 
 namespace sdf_ccd {

@@ -10,9 +10,9 @@
 #include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
-#include "query/plane_separation.h"
 #include "query/shell_distance.h"
-#include "query/surface_distance.h"
+#include "query/surfaces/plane_separation.h"
+#include "query/surfaces/surface_distance.h"
 
 namespace sdf_ccd {
 namespace {

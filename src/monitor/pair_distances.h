@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "query/separation.h"
+#include "query/surfaces/separation.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/triangle.h"
-#include "query/triangle_pair.h"
+#include "query/surfaces/triangle_pair.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

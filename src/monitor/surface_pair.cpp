@@ -7,7 +7,7 @@
 #include "geometry/triangle_tree.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
-#include "query/plane_separation.h"
+#include "query/surfaces/plane_separation.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "body/body_triangles.h"
 #include "body_half_space.h"
-#include "query/separation.h"
+#include "query/surfaces/separation.h"
 #include "relative_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
 

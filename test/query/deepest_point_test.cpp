@@ -1,4 +1,4 @@
-#include "query/deepest_point.h"
+#include "query/surfaces/deepest_point.h"
 
 #include <gtest/gtest.h>
 

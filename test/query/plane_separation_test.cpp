@@ -1,4 +1,4 @@
-#include "query/plane_separation.h"
+#include "query/surfaces/plane_separation.h"
 
 #include <chrono>
 

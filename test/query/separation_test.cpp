@@ -1,4 +1,4 @@
-#include "query/separation.h"
+#include "query/surfaces/separation.h"
 
 #include <gtest/gtest.h>
 

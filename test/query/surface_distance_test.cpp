@@ -1,4 +1,4 @@
-#include "query/surface_distance.h"
+#include "query/surfaces/surface_distance.h"
 
 #include <gtest/gtest.h>
 

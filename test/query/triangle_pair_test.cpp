@@ -1,10 +1,10 @@
-#include "query/triangle_pair.h"
+#include "query/surfaces/triangle_pair.h"
 
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
 #include "oracle/triangle_distance.h"
-#include "query/triangle_pairs_scalar.h"
+#include "query/surfaces/triangle_pairs_scalar.h"
 
 namespace sdf_ccd {
 namespace {

@@ -153,10 +153,10 @@ class MonitorChange {
 /// Two bodies that consist of triangles (meshes, boxes, cylinders, spheres: Body::triangles) are CLEAR if their
 /// surfaces are proved to stay farther apart than the error of the motions, and no part of one is wholly inside the
 /// other. They are in CONTACT if the surfaces certainly cross at some time. This holds to MonitorOptions::max_error,
-/// independent of fields and shells (src/query/separation.h; design §3.17). PairResult::error then is that of the
-/// triangles and motions; for a pair that is UNCERTAIN because its surfaces come too close to decide, plus max_error.
-/// Fields and shells decide what this leaves open (a body may be wholly inside the other, or have come through the
-/// opening of a mesh); they also give depths and forces, with the error PairResult::contact_error.
+/// independent of fields and shells (src/query/surfaces/separation.h; design §3.17). PairResult::error then is that of
+/// the triangles and motions; for a pair that is UNCERTAIN because its surfaces come too close to decide, plus
+/// max_error. Fields and shells decide what this leaves open (a body may be wholly inside the other, or have come
+/// through the opening of a mesh); they also give depths and forces, with the error PairResult::contact_error.
 ///
 /// Other pairs are CLEAR if no shell point comes closer than the error bound's total; in CONTACT if one is certainly
 /// deeper than the errors of chord and root, given the field's error at its location; else UNCERTAIN. They are

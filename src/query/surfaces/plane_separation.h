@@ -1,7 +1,7 @@
 #pragma once
 
-#include "query/separation.h"
 #include "sdf_ccd/geometry/primitive.h"
+#include "separation.h"
 
 /// Whether a surface stays above a plane while both move, and how far.
 namespace sdf_ccd {

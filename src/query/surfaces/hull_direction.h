@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "geometry/box_tree.h"
-#include "lanes/triangle_pairs.h"
+#include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {
 

@@ -7,7 +7,7 @@
 
 #include "geometry/box_tree.h"
 #include "motion/chords.h"
-#include "query/part_depth.h"
+#include "part_depth.h"
 
 namespace sdf_ccd {
 

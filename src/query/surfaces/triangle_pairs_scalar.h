@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lanes/triangle_pairs.h"
+#include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {
 

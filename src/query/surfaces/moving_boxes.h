@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/box_tree.h"
-#include "lanes/triangle_pairs.h"
+#include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "query/surface_distance.h"
+#include "surface_distance.h"
 
 #include <algorithm>
 #include <cmath>

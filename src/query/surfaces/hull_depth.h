@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "query/part_depth.h"
+#include "part_depth.h"
 
 namespace sdf_ccd {
 

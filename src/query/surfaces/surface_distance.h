@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "query/separation.h"
+#include "separation.h"
 
 namespace sdf_ccd {
 

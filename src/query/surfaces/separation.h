@@ -5,8 +5,8 @@
 
 #include "common/infinity.h"
 #include "geometry/box_tree.h"
-#include "lanes/triangle_pairs.h"
 #include "motion/chords.h"
+#include "query/lanes/triangle_pairs.h"
 
 /// Whether two surfaces of triangles stay apart while both move, and how far (design §3.17).
 namespace sdf_ccd {
