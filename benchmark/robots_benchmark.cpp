@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "common/seconds_since.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "precision/error_summary.h"
 #include "results.h"
 #include "robot_case.h"

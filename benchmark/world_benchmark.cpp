@@ -12,7 +12,7 @@
 
 #include <unistd.h>
 
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 #include "precision/error_summary.h"
 #include "study.h"
 #include "world/running_monitor.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fuzz_input.h"
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

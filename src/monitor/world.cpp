@@ -9,12 +9,12 @@
 #include "body/build_body.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
+#include "monitor/plan/scene_totals.h"
+#include "monitor/plan/surface_needs.h"
 #include "prepared_bodies.h"
-#include "scene_totals.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_crossing.h"
-#include "surface_needs.h"
 
 namespace sdf_ccd {
 namespace {

@@ -12,7 +12,7 @@
 #include "geometry/unit_hint.h"
 #include "model/error_budget.h"
 #include "model/name_pair.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "robot/joint_motion.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"

@@ -7,7 +7,7 @@
 #include "common/number_text.h"
 #include "field/grid_cell.h"
 #include "geometry/unit_hint.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::tools {

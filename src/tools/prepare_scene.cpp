@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "common/number_text.h"
 #include "monitor/over_budget.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "output_file.h"
 #include "storage/cache_directory.h"
 #include "storage/file_cache.h"

@@ -7,7 +7,7 @@
 
 #include "body/mesh_pool.h"
 #include "model/error_budget.h"
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "oracle/failure.h"
 #include "oracle/scene_case.h"
 #include "shell/sample_surface.h"

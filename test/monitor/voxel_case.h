@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 
 /// Maps of voxels from lists of indices.
 namespace sdf_ccd::test {

@@ -1,4 +1,4 @@
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 
 #include <gtest/gtest.h>
 

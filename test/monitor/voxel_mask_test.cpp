@@ -1,4 +1,4 @@
-#include "monitor/voxel_mask.h"
+#include "monitor/map/voxel_mask.h"
 
 #include <gtest/gtest.h>
 

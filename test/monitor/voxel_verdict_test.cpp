@@ -1,7 +1,7 @@
 // Verdicts about voxel maps against exact distances to boxes.
 #include <gtest/gtest.h>
 
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <thread>
 
-#include "monitor/voxel_mask.h"
+#include "monitor/map/voxel_mask.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"

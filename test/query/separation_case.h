@@ -9,7 +9,7 @@
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "query/separation.h"
+#include "query/surfaces/separation.h"
 
 namespace sdf_ccd::test {
 

@@ -10,7 +10,7 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 #include "ros/messages/octomap_message.h"
 #include "ros/monitor/robot_in_map.h"
 #include "ros/monitor/scene_editor.h"

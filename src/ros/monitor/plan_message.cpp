@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "monitor/scene_totals.h"
+#include "monitor/plan/scene_totals.h"
 
 namespace sdf_ccd {
 

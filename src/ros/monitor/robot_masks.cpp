@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-#include "monitor/voxel_mask.h"
+#include "monitor/map/voxel_mask.h"
 
 namespace sdf_ccd {
 

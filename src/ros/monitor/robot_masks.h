@@ -1,6 +1,6 @@
 #pragma once
 
-#include "monitor/voxel_map.h"
+#include "monitor/map/voxel_map.h"
 #include "ros/monitor/robot_in_map.h"
 
 namespace sdf_ccd {

@@ -7,9 +7,9 @@
 #include <ros/node_handle.h>
 
 #include "model/pair_rules.h"
+#include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
-#include "monitor/voxel_map.h"
 #include "ros/messages/markers.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_object.h"

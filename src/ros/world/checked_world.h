@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor/voxel_mask.h"
+#include "monitor/map/voxel_mask.h"
 #include "robot/unreachable_pairs.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/world.h"

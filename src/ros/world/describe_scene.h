@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor/scene_cost.h"
+#include "monitor/plan/scene_cost.h"
 #include "robot/unreachable_pairs.h"
 #include "ros/parameters/parameters.h"
 #include "ros/tf/robot_frames.h"

@@ -1,4 +1,4 @@
-#include "monitor/voxel_mask.h"
+#include "voxel_mask.h"
 
 #include <algorithm>
 

@@ -9,7 +9,7 @@
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
 #include "model/name_pair.h"
-#include "monitor/surface_needs.h"
+#include "surface_needs.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
-#include "no_pairs.h"
-#include "pair_bound.h"
+#include "monitor/no_pairs.h"
+#include "monitor/pair_bound.h"
 #include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
 

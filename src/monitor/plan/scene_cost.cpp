@@ -1,4 +1,4 @@
-#include "monitor/scene_cost.h"
+#include "scene_cost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pair_bound.h"
+#include "monitor/pair_bound.h"
 
 namespace sdf_ccd {
 namespace {

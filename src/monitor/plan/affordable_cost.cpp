@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/number_text.h"
-#include "monitor/scene_cost.h"
+#include "scene_cost.h"
 
 namespace sdf_ccd {
 namespace {
