@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 

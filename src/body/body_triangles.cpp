@@ -5,8 +5,8 @@
 #include <map>
 
 #include "body/body_builder.h"
-#include "geometry/box_tree_ray.h"
 #include "geometry/mesh_edges.h"
+#include "geometry/trees/box_tree_ray.h"
 #include "geometry/voxel_rectangles.h"
 
 namespace sdf_ccd {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "body/mesh_pool.h"
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 #include "geometry/voxel_solid.h"
 #include "sdf_ccd/model/scene_description.h"
 

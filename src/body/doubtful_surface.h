@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "body/mesh_pool.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "geometry/openings.h"
+#include "geometry/openings/openings.h"
 #include "geometry/solid_boundary.h"
 #include "geometry/voxel_solid.h"
 

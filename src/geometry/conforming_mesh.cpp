@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "edge_search.h"
-#include "geometry/box_measures.h"
-#include "seams.h"
+#include "geometry/openings/seams.h"
+#include "geometry/trees/box_measures.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "surface_tolerance.h"
 
 namespace sdf_ccd {

@@ -5,7 +5,7 @@
 
 #include "common/parallel_for.h"
 #include "cut_test.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 

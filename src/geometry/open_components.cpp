@@ -8,7 +8,7 @@
 
 #include "common/parallel_for.h"
 #include "common/pi.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

@@ -9,7 +9,7 @@
 #include "conforming_mesh.h"
 #include "duplicate_triangles.h"
 #include "geometry/corners.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "hidden_walls.h"
 #include "mesh_patches.h"
 #include "open_components.h"

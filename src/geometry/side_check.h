@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "common/lattice.h"
-#include "geometry/openings.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/openings/openings.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 

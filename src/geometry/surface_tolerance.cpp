@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/box_measures.h"
+#include "geometry/trees/box_measures.h"
 
 namespace sdf_ccd {
 

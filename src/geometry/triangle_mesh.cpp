@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/number_text.h"
-#include "geometry/box_measures.h"
 #include "geometry/point_numbers.h"
+#include "geometry/trees/box_measures.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "geometry/ray_directions.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "may_approach.h"
 #include "pose_rounding.h"
 #include "sdf_ccd/common/cancel.h"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "common/infinity.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
 #include "query/surfaces/plane_separation.h"

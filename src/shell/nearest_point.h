@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/box_measures.h"
+#include "geometry/trees/box_measures.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "common/number_text.h"
-#include "geometry/openings.h"
+#include "geometry/openings/openings.h"
 #include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"

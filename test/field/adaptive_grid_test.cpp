@@ -4,7 +4,7 @@
 #include <tbb/global_control.h>
 
 #include "field/uniform/sparse_grid.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/box_union.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"

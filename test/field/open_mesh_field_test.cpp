@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "geometry/openings.h"
+#include "geometry/openings/openings.h"
 #include "geometry/solid_boundary.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"

@@ -1,4 +1,4 @@
-#include "geometry/box_tree_ray.h"
+#include "geometry/trees/box_tree_ray.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The orientation of parts, compared with solids that are known by construction.
 #include <gtest/gtest.h>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"

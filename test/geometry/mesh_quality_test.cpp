@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/shapes.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "geometry/openings.h"
+#include "geometry/openings/openings.h"
 
 #include <gtest/gtest.h>
 

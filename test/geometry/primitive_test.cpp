@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"

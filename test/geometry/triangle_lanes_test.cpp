@@ -1,4 +1,4 @@
-#include "geometry/triangle_lanes.h"
+#include "geometry/trees/triangle_lanes.h"
 
 #include <gtest/gtest.h>
 

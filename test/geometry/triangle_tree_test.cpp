@@ -1,4 +1,4 @@
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "geometry/openings.h"
+#include "geometry/openings/openings.h"
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/mesh_quality.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "geometry/box_tree.h"
 #include "geometry/corners.h"
+#include "geometry/trees/box_tree.h"
 #include "oracle/triangle_distance.h"
 
 /// Surfaces of rounded triangles, and their distances by brute force.

@@ -6,7 +6,7 @@
 
 #include "../../src/shell/flat_pieces.h"
 #include "common/infinity.h"
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"

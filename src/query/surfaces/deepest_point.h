@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 #include "motion/chords.h"
 #include "part_depth.h"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 #include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 #include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {

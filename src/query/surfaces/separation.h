@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/infinity.h"
-#include "geometry/box_tree.h"
+#include "geometry/trees/box_tree.h"
 #include "motion/chords.h"
 #include "query/lanes/triangle_pairs.h"
 

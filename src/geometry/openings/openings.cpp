@@ -1,4 +1,4 @@
-#include "geometry/openings.h"
+#include "openings.h"
 
 #include <algorithm>
 #include <numeric>
@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "common/counted.h"
+#include "geometry/mesh_patches.h"
+#include "geometry/side_check.h"
 #include "loop_cap.h"
-#include "mesh_patches.h"
 #include "reach_bound.h"
 #include "rim.h"
 #include "sdf_ccd/common/cancel.h"
-#include "side_check.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "box_measures.h"
 #include "common/infinity.h"
-#include "geometry/box_measures.h"
 
 namespace sdf_ccd {
 

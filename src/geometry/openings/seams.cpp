@@ -5,10 +5,10 @@
 #include <map>
 #include <optional>
 
-#include "edge_search.h"
 #include "geometry/corners.h"
+#include "geometry/edge_search.h"
+#include "geometry/triangle.h"
 #include "sdf_ccd/common/cancel.h"
-#include "triangle.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,9 +1,9 @@
-#include "geometry/triangle_tree.h"
+#include "triangle_tree.h"
 
 #include <cmath>
 
+#include "box_measures.h"
 #include "common/compiler_lanes.h"
-#include "geometry/box_measures.h"
 #include "geometry/triangle.h"
 
 namespace sdf_ccd {

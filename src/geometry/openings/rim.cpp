@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "edge_search.h"
-#include "mesh_edges.h"
+#include "geometry/edge_search.h"
+#include "geometry/mesh_edges.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "binned_split.h"
 #include "common/infinity.h"
 #include "common/resize_in_steps.h"
-#include "geometry/binned_split.h"
-#include "geometry/triangle_tree.h"
+#include "triangle_tree.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "geometry/box_tree.h"
+#include "box_tree.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "geometry/box_tree_ray.h"
+#include "box_tree_ray.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "binned_split.h"
-#include "point_numbers.h"
+#include "geometry/point_numbers.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/triangle_tree.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 
