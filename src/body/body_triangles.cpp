@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "body/body_builder.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/trees/box_tree_ray.h"
 #include "geometry/voxel_rectangles.h"

@@ -39,13 +39,14 @@ BodyOptions optionsOf(const RobotFiles& files) {
 std::string parametersOf(const RobotFiles& files) {
   const auto& [cells, cell_size, max_error, band, max_bytes] = files.field;
   static_cast<void>(max_bytes);
-  std::vector<std::string> field;
-  if (cells) field.push_back(fmt::format("cells: {}", *cells));
-  if (cell_size) field.push_back(fmt::format("cell_size: {}", *cell_size));
-  if (max_error) field.push_back(fmt::format("max_error: {}", *max_error));
-  if (band > 0.0) field.push_back(fmt::format("band: {}", band));
+  std::string field;
+  const auto add = [&](const std::string& setting) { field += (field.empty() ? "" : ", ") + setting; };
+  if (cells) add(fmt::format("cells: {}", *cells));
+  if (cell_size) add(fmt::format("cell_size: {}", *cell_size));
+  if (max_error) add(fmt::format("max_error: {}", *max_error));
+  if (band > 0.0) add(fmt::format("band: {}", band));
   std::string text;
-  if (!field.empty()) text += fmt::format(", field: {{{}}}", fmt::join(field, ", "));
+  if (!field.empty()) text += fmt::format(", field: {{{}}}", field);
   if (files.spacing) text += fmt::format(", shell: {{spacing: {}}}", *files.spacing);
   return text + (text.empty() ? " and default parameters" : " and otherwise default parameters");
 }
