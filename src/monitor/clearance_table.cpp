@@ -15,7 +15,7 @@ using namespace lanes;
 
 constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes without a pair
 constexpr float kUpwards = 1.0F + 0x1p-20F;
-constexpr float kSoon = 2.0F;      // cycles like the last one in which SkippedPairs::soon becomes due
+constexpr float kSoon = 2.0F, kNever = 0.0F, kPaused = -1.0F;
 constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
 using Vector = LaneVector<Floats>;
@@ -96,6 +96,7 @@ struct ScanArrays {
   float* spent;
   float* slack;
   const float* error;
+  const float* soon;
 };
 
 SDF_CCD_LANES
@@ -138,7 +139,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const Ints is_more = bound > best;
     best = is_more ? bound : best;
     best_block = is_more ? Ints{} + static_cast<std::int32_t>(i) : best_block;
-    const Floats over = is_quiet ? kSoon * travel - (left - error) : zero;
+    const Floats over = is_quiet ? load(s.soon + at) * travel - (left - error) : zero;
     const Ints is_over = over > most_over;
     most_over = is_over ? over : most_over;
     over_block = is_over ? Ints{} + static_cast<std::int32_t>(i) : over_block;
@@ -191,18 +192,25 @@ ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(
   spent_.assign(pairs_.size(), 0.0F);
   slack_.assign(pairs_.size(), 0.0F);
   error_.assign(pairs_.size(), -kNoPair);
+  soon_.assign(pairs_.size(), kSoon);
   due_blocks_.resize(blocks_.size());
   forget();
 }
 
-void ClearanceTable::setMargin(int pair, double margin, double error) {
+void ClearanceTable::setMargin(int pair, double margin, double error, bool measurable) {
   margin_[static_cast<std::size_t>(pair)] = margin;
+  soon_[slot(pair)] = measurable ? kSoon : kNever;
   error_[slot(pair)] = static_cast<float>(error) * kUpwards;
 }
 
 void ClearanceTable::set(int pair, double clearance) {
   constexpr double kFar = 1e6;  // [m]: farther pairs are tested earlier than necessary
   budget_[slot(pair)] = roundedDown(std::min(clearance - margin(pair), kFar));
+  if (soon_[slot(pair)] == kPaused) soon_[slot(pair)] = kSoon;
+}
+
+void ClearanceTable::pauseSoon(int pair) {
+  if (soon_[slot(pair)] == kSoon) soon_[slot(pair)] = kPaused;
 }
 
 void ClearanceTable::spend(int pair, double displacement) {
@@ -218,7 +226,7 @@ void ClearanceTable::forget() {
 void ClearanceTable::advance(const BodyTwists& bodies) {
   if (blocks_.empty()) return;
   addTravel({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(), slack_.data(),
-             error_.data()});
+             error_.data(), soon_.data()});
   has_spent_ = true;
 }
 
@@ -227,7 +235,7 @@ SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePai
   if (blocks_.empty()) return {};
   std::size_t count = 0;
   SkippedPairs quiet = scanPairs({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(),
-                                  slack_.data(), error_.data()},
+                                  slack_.data(), error_.data(), soon_.data()},
                                  has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;

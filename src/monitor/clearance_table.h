@@ -36,11 +36,14 @@ class ClearanceTable {
 
   /// @param margin  distance within which a test could find something, without the motion's error [m].
   /// @param error   the pair's error bound, without the motion's error [m].
-  void setMargin(int pair, double margin, double error);
+  /// @param measurable  whether SkippedPairs::soon may be the pair.
+  void setMargin(int pair, double margin, double error, bool measurable = true);
 
   /// Sets the clearance of a pair that a test has found clear, and whose bodies are followed from there on.
   /// @param clearance  lower bound of the distance [m].
   void set(int pair, double clearance);
+  /// Until set() is called, SkippedPairs::soon is not the pair.
+  void pauseSoon(int pair);
   void forget(int pair) { budget_[slot(pair)] = kUnknown; }
   void forget();
 
@@ -92,7 +95,8 @@ class ClearanceTable {
   std::vector<float> budget_;        // per slot [m]
   std::vector<float> spent_;         // per slot: displacement in the cycle's steps up to now [m]
   std::vector<float> error_;         // per slot [m]
-  std::vector<float> slack_;         // per slot: budget that remains after the last scan [m]
+  std::vector<float> soon_;   // per slot: cycles in which SkippedPairs::soon would be due; else kNever or kPaused
+  std::vector<float> slack_;  // per slot: budget that remains after the last scan [m]
   std::vector<std::size_t> due_blocks_;
   bool has_spent_ = false;
 };

@@ -183,9 +183,13 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion) {
   queue.assign(1, {0.0F, pair});
   bodies->take(motion, result.pairs, queue);
   std::unique_ptr<PairMemory> taken = memory->take();
-  const std::optional<double> clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
+  std::optional<double> clearance;
+  try {
+    clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
+  } catch (const std::exception&) {  // as when the cycle is cancelled; its results are complete
+  }
   memory->giveBack(std::move(taken));
-  if (clearance) schedule->raise(pair, *clearance);
+  schedule->raiseSoon(clearance);
 }
 
 /// All threads take pairs from one queue, so that the most urgent pairs are done first.

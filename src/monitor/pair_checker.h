@@ -41,6 +41,9 @@ class PairChecker {
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
                 PairResult& result);
 
+  /// Whether measure() can find anything.
+  bool isMeasurable() const { return surfaces_.has_value(); }
+
   /// Measures the distance of a pair that is known to be clear over the whole span. What is stored stays.
   /// @return a lower bound at the span's end [m]; empty if none is found.
   std::optional<double> measure(const CycleMotion& motion, const SweptBodies& bodies, const WaypointSpan& span,

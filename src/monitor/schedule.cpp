@@ -11,7 +11,8 @@ Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
       is_paired_(scene.bodies.size(), 0),
       is_whole_(scene.bodies.size(), 0) {
   for (std::size_t i = 0; i < checkers.size(); ++i)
-    table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total());
+    table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total(),
+                     checkers[i].isMeasurable());
   due_.reserve(checkers.size());
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) is_paired_[static_cast<std::size_t>(body)] = 1;

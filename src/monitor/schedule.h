@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "clearance_table.h"
@@ -33,10 +34,11 @@ class Schedule {
   /// A pair that is not due but will be soon, if the motion continues; −1 if there is none.
   int soon() const { return quiet_.soon; }
 
-  /// Raises the clearance of a pair that is not due, if a larger one has been measured. @param clearance  lower bound
-  /// of the distance at the cycle's end [m].
-  void raise(int pair, double clearance) {
-    if (clearance > table_.clearance(pair)) table_.set(pair, clearance);
+  /// Raises the clearance of soon(), if a larger one has been measured; otherwise the pair is not named again before it
+  /// is due. @param clearance  lower bound of the distance at the cycle's end [m]; none if it could not be measured.
+  void raiseSoon(std::optional<double> clearance) {
+    if (clearance && *clearance > table_.clearance(soon())) return table_.set(soon(), *clearance);
+    table_.pauseSoon(soon());
   }
 
   /// For a pair that is not due: upper bound of the motion's part of its error, and lower bound of its distance at the

@@ -291,14 +291,18 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   scene.pairs = {{0, 1, true, true}, {0, 2, true, true}, {0, 3, true, true}, {1, 2, true, true}};
   const std::vector<char> whole(4, 1);
   const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 0.0, false}, 4, 1, random));
-  const auto soonWith = [&](double first, double second, double third) {
+  enum class Second { kMeasurable, kNotMeasurable, kPaused };
+  const auto soonWith = [&](double first, double second, double third, Second kind = Second::kMeasurable) {
     BodyTwists bodies(scene);
     ClearanceTable table(scene.pairs);
     std::vector<DuePair> due;
     bodies.begin(still, whole);
     bodies.end(still, whole);
+    table.setMargin(1, 0.0, 0.0, kind != Second::kNotMeasurable);
+    table.pauseSoon(0);
     table.set(0, first);
     table.set(1, second);
+    if (kind == Second::kPaused) table.pauseSoon(1);
     table.set(2, third);
     table.set(3, 1e-6);
     CycleMotion moves = still;
@@ -310,6 +314,8 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   };
   EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep), 1);
   EXPECT_EQ(soonWith(2.9 * kStep, 9.0 * kStep, 9.0 * kStep), 0);
+  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, Second::kNotMeasurable), 0);
+  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, Second::kPaused), 0);
   EXPECT_EQ(soonWith(3.1 * kStep, 9.0 * kStep, 9.0 * kStep), -1);
 }
 

@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import rospy
@@ -386,15 +387,25 @@ class MonitorTest(MonitorCase):
         loader.exec_module(after_monitor)
         config = os.path.join(os.path.dirname(script), '..', 'config', 'monitor.rviz')
         urdf = rospy.get_param('/collision_monitor/robot_description')
-        self.assertEqual(after_monitor.following(config, 'base', urdf), config)
-        for bad in (None, '', '<robot>', '<robot><joint/></robot>', '<robot><link/></robot>'):
-            self.assertEqual(after_monitor.following(config, 'map', bad), config)
-        copy = after_monitor.following(config, 'map', urdf)
-        try:
-            with open(copy) as changed, open(config) as file:
-                self.assertEqual(changed.read(), file.read().replace('<Fixed Frame>', 'base'))
-        finally:
-            os.remove(copy)
+        with tempfile.TemporaryDirectory() as folder:
+            copy = os.path.join(folder, 'new', 'monitor.rviz')
+            following = after_monitor.following
+            self.assertEqual(following(config, 'base', urdf, '', copy), config)
+            self.assertEqual(following(config, 'robot1/base', urdf, '/robot1', copy), config)
+            for bad in (None, '', '<robot>', '<robot><joint/></robot>', '<robot><link/></robot>'):
+                self.assertEqual(following(config, 'map', bad, '', copy), config)
+            self.assertEqual(following(config, 'map', urdf, '', '/proc/none/monitor.rviz'), config)
+            self.assertFalse(os.path.exists(copy))
+            for prefix, frame in (('', '"base"'), ('robot1/', '"robot1/base"')):
+                self.assertEqual(following(config, 'map', urdf, prefix, copy), copy)
+                with open(copy) as changed, open(config) as file:
+                    self.assertEqual(changed.read(), file.read().replace('<Fixed Frame>', frame))
+        self.assertEqual(after_monitor.description('collision_monitor'), urdf)
+        rospy.set_param('/outer/robot_description', 'outer')
+        rospy.set_param('/outer/inner/monitor/urdf_parameter', 'robot_description')
+        self.assertEqual(after_monitor.description('/outer/inner/monitor'), 'outer')
+        rospy.set_param('/outer/inner/monitor/urdf_parameter', 'nowhere_description')
+        self.assertIsNone(after_monitor.description('/outer/inner/monitor'))
 
     def test_ends_at_once_however_seldom_it_cycles(self):
         states = Recorder('/slow_monitor/state', MonitorState)
