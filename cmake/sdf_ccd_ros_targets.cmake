@@ -38,6 +38,6 @@ endforeach()
 
 catkin_install_python(PROGRAMS scripts/after_monitor scripts/bag_states scripts/demo_motion scripts/demo_report
     scripts/shelf_map scripts/shelf_motion scripts/shelf_report DESTINATION ${SDF_CCD_BIN_DIR})
-install(FILES scripts/demo_arm.py scripts/octomap_message.py DESTINATION ${SDF_CCD_BIN_DIR})
+install(FILES scripts/demo_arm.py scripts/octomap_message.py scripts/robot_xml.py DESTINATION ${SDF_CCD_BIN_DIR})
 install(FILES nodelet_plugins.xml package.xml DESTINATION ${SDF_CCD_SHARE_DIR})
 install(DIRECTORY launch DESTINATION ${SDF_CCD_SHARE_DIR})
