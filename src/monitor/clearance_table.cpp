@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "common/lane_vector.h"
@@ -85,6 +86,30 @@ SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
 }
 
 using Ints = decltype(Floats{} < Floats{});
+
+/// The largest value of a scan above a given one, and its slot.
+class Largest {
+ public:
+  SDF_CCD_INLINE explicit Largest(float above) : values_(Floats{} + above), above_(above) {}
+  SDF_CCD_INLINE void take(const Floats& values, std::size_t block) {
+    const Ints is_more = values > values_;
+    values_ = is_more ? values : values_;
+    blocks_ = is_more ? Ints{} + static_cast<std::int32_t>(block) : blocks_;
+  }
+  /// The value and its slot; the given value and −1 if there is none above it.
+  SDF_CCD_INLINE std::pair<float, int> get() const {
+    std::pair<float, int> largest = {above_, -1};
+    for (int lane = 0; lane < kFloatWidth; ++lane)
+      if (values_[lane] > largest.first) largest = {values_[lane], blocks_[lane] * kFloatWidth + lane};
+    return largest;
+  }
+
+ private:
+  Floats values_;
+  Ints blocks_ = {};
+  float above_;
+};
+
 using Pairs __attribute__((vector_size(sizeof(Ints)))) = std::int64_t;  // of lanes
 
 /// Arrays of a scan, in the order of the blocks.
@@ -114,10 +139,7 @@ void addTravel(const ScanArrays& s) {
 /// and its slot, and the slot of the pair that will be due soon.
 SDF_CCD_LANES
 SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
-  Floats best = Floats{} - 1.0F;
-  Ints best_block = {};
-  Floats most_over = {};
-  Ints over_block = {};
+  Largest error_bound(-1.0F), overdue(0.0F);
   const Floats zero = {};
   std::size_t found = 0;
   OneBody a;
@@ -136,30 +158,16 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     store(is_quiet ? left : budget, s.budget + at);
     store(left - error, s.slack + at);
     const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
-    const Ints is_more = bound > best;
-    best = is_more ? bound : best;
-    best_block = is_more ? Ints{} + static_cast<std::int32_t>(i) : best_block;
-    const Floats over = is_quiet ? load(s.soon + at) * travel - (left - error) : zero;
-    const Ints is_over = over > most_over;
-    most_over = is_over ? over : most_over;
-    over_block = is_over ? Ints{} + static_cast<std::int32_t>(i) : over_block;
+    error_bound.take(bound, i);
+    overdue.take(is_quiet ? load(s.soon + at) * travel - (left - error) : zero, i);
     const Pairs quiet = Pairs(is_quiet);  // a lane is −1 if true
     due_blocks[found] = i;
     found += (quiet[0] & quiet[1] & quiet[2] & quiet[3]) != -1;
   }
   *due_count = found;
   SkippedPairs quiet;
-  float most = 0.0F;
-  for (int lane = 0; lane < kFloatWidth; ++lane) {
-    if (!(most_over[lane] > most)) continue;
-    most = most_over[lane];
-    quiet.soon = over_block[lane] * kFloatWidth + lane;
-  }
-  for (int lane = 0; lane < kFloatWidth; ++lane) {
-    if (!(best[lane] > quiet.error)) continue;
-    quiet.error = best[lane];
-    quiet.pair = best_block[lane] * kFloatWidth + lane;
-  }
+  std::tie(quiet.error, quiet.pair) = error_bound.get();
+  quiet.soon = overdue.get().second;
   return quiet;
 }
 
