@@ -19,10 +19,7 @@
 namespace sdf_ccd {
 namespace {
 
-using test::Random;
-using test::randomSegments;
-using test::torus;
-using test::uniformTorus;
+using namespace test;
 
 /// Fields of boxes with faces on planes of the grid, where samples are exactly zero.
 std::vector<DistanceField> boxesOnTheGrid() {

@@ -9,10 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-using test::Random;
-using test::randomSegments;
-using test::torus;
-using test::uniformTorus;
+using namespace test;
 
 TEST(SegmentBatch, PrimitivesGiveTheSingleQuerysIntervals) {
   for (const DistanceField& field :

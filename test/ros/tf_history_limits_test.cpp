@@ -5,12 +5,7 @@
 namespace sdf_ccd {
 namespace {
 
-using test::message;
-using test::problemOf;
-using test::recordedTimes;
-using test::stampedTransform;
-using test::takeSpans;
-using test::xOf;
+using namespace test;
 
 TEST(TfHistory, StampsBeyondAllClocksAndEmptyNamesAreRefused) {
   TfHistory history("world");

@@ -11,12 +11,7 @@
 namespace sdf_ccd {
 namespace {
 
-using test::message;
-using test::problemOf;
-using test::recordedTimes;
-using test::stampedTransform;
-using test::takeSpans;
-using test::xOf;
+using namespace test;
 
 constexpr const char* kFrames[] = {"base", "left", "left_hand", "right", "right_hand", "tool"};
 constexpr const char* kParents[] = {"world", "base", "left", "base", "right", "right_hand"};

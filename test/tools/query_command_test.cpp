@@ -11,10 +11,7 @@
 namespace sdf_ccd {
 namespace {
 
-using test::kBadInput;
-using test::kDone;
-using test::readText;
-using test::ToolRun;
+using namespace test;
 using QueryCommand = test::ToolWithBall;
 
 TEST_F(QueryCommand, EqualsTheLibrary) {

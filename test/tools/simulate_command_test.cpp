@@ -5,13 +5,8 @@
 namespace sdf_ccd {
 namespace {
 
-using test::kBadInput;
-using test::kDone;
-using test::kPartlyDone;
-using test::readText;
-using test::ToolRun;
-using Tool = test::ToolWithBall;
-namespace fs = std::filesystem;
+using namespace test;
+using Tool = ToolWithBall;
 
 TEST_F(Tool, SimulateWritesStepsPosesAndASummary) {
   write("scene.yaml",
