@@ -78,4 +78,9 @@ SDF_CCD_INLINE double leastOf(const Doubles& v) {
   return std::min(std::min(v[0], v[1]), std::min(v[2], v[3]));
 }
 
+SDF_CCD_INLINE float leastOf(const Floats& v) {
+  return std::min(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
+                  std::min(std::min(v[4], v[5]), std::min(v[6], v[7])));
+}
+
 }  // namespace sdf_ccd::lanes

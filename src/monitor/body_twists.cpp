@@ -45,6 +45,21 @@ SDF_CCD_INLINE bool same(const Isometry3d& a, const Isometry3d& b) {
   return isZero(difference(a, b));
 }
 
+/// The next whole number of groups.
+std::size_t roundedUp(std::size_t slots) {
+  return (slots + kTwistLanes - 1) / kTwistLanes * kTwistLanes;
+}
+
+/// First the robot's bodies, then the world's, in the order of their indices.
+std::vector<std::size_t> slotsOf(const BodyList& bodies) {
+  const auto isOfWorld = [](const Body& body) { return body.is_world; };
+  const auto robots = bodies.size() - static_cast<std::size_t>(std::count_if(bodies.begin(), bodies.end(), isOfWorld));
+  std::size_t robot = 0, world = roundedUp(robots);
+  std::vector<std::size_t> slots;
+  for (const Body& body : bodies) slots.push_back(body.is_world ? world++ : robot++);
+  return slots;
+}
+
 /// Upper bound of the norm, without a square root.
 double normUpperBound(const Vector3d& v) {
   return v.lpNorm<1>();
@@ -56,7 +71,8 @@ double normUpperBound(const Vector3d& v) {
 struct BodyTwists::Twist {
   Vector3d omega = Vector3d::Zero(), velocity = Vector3d::Zero(), point_W = Vector3d::Zero();
   double reach = 0.0;        // as TwistRow::kReach
-  double shift = 0.0;        // bound of the centre's distance from m
+  double turn = 0.0;         // amount of omega
+  double shift = 0.0;        // bound of the centre's distance from m, and of the velocity's amount
   double turn_noise = 0.0;   // error of the rotation, from the poses
   double shift_noise = 0.0;  // error of the displacement, from the rounding of coordinates
 
@@ -67,6 +83,7 @@ struct BodyTwists::Twist {
     twist.omega = TwistLanes::at(twists.omega, lane);
     twist.velocity = TwistLanes::at(twists.velocity, lane);
     twist.point_W = TwistLanes::at(twists.point_W, lane);
+    twist.turn = twists.turn[lane];
     twist.shift = twists.shift[lane];
     twist.reach = radius + 0.27 * twist.shift;
     return twist;
@@ -79,6 +96,7 @@ struct BodyTwists::Twist {
     twist.omega = exact.omega;
     twist.velocity = exact.velocity;
     twist.point_W = exact.center;
+    twist.turn = exact.omega.norm();
     twist.shift = exact.velocity.norm();
     twist.reach = ball.radius + 0.2501 * twist.shift;
     return twist;
@@ -87,7 +105,10 @@ struct BodyTwists::Twist {
 
 BodyTwists::BodyTwists(const Scene& scene)
     : scene_(scene),
-      rows_((scene.bodies.size() + kTwistLanes - 1) / kTwistLanes * kTwistBlock, 0.0F),
+      slots_(slotsOf(scene.bodies)),
+      paired_in_(slots_.empty() ? 0 : roundedUp(*std::max_element(slots_.begin(), slots_.end()) + 1), -1),
+      rows_(paired_in_.size() / kTwistLanes * kTwistBlock, 0.0F),
+      groups_(paired_in_.size() / kTwistLanes),
       bodies_(scene.bodies.size()),
       is_open_(scene.bodies.size(), 0) {
   std::vector<int> pairs(scene.bodies.size(), 0);
@@ -96,6 +117,7 @@ BodyTwists::BodyTwists(const Scene& scene)
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     is_open_[b] = !ballContainsBody(scene.bodies[b]);
     lose(b);
+    if (pairs[b] > 0) paired_in_[slots_[b]] = static_cast<std::ptrdiff_t>(b);
     if (pairs[b] == 0 || !scene.bodies[b].failure.empty()) continue;
     if (paired_.empty() || pairs[b] > pairs[anchor_]) anchor_ = b;
     paired_.push_back(b);
@@ -113,14 +135,14 @@ void BodyTwists::forget() {
 void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodies) {
   origin_ = other.origin_;
   for (Followed& body : bodies_) body.rests = false;
+  for (TwistGroup& group : groups_) group.rests = false;
   for (const BodyRun& run : bodies) {
     std::copy_n(other.bodies_.begin() + static_cast<std::ptrdiff_t>(run.from), run.count,
                 bodies_.begin() + static_cast<std::ptrdiff_t>(run.to));
     for (std::size_t i = 0; i < run.count;) {
-      const float* from = other.rows_.data() + twistOffset(run.from + i);
-      float* to = rows_.data() + twistOffset(run.to + i);
-      const bool is_block = (run.from + i) % kTwistLanes == 0 && (run.to + i) % kTwistLanes == 0;
-      if (is_block && run.count - i >= kTwistLanes) {
+      const float* from = other.rows_.data() + twistOffset(other.slots_[run.from + i]);
+      float* to = rows_.data() + twistOffset(slots_[run.to + i]);
+      if (run.count - i >= kTwistLanes && other.fillGroup(run.from + i) && fillGroup(run.to + i)) {
         std::copy_n(from, kTwistBlock, to);
         i += kTwistLanes;
       } else {
@@ -129,6 +151,12 @@ void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodie
       }
     }
   }
+}
+
+/// Whether a body and the next ones fill a group.
+bool BodyTwists::fillGroup(std::size_t first_body) const {
+  const std::size_t first = slots_[first_body];
+  return first % kTwistLanes == 0 && slots_[first_body + kTwistLanes - 1] == first + kTwistLanes - 1;
 }
 
 double BodyTwists::displacement(int body, const BodyTwists& other, int other_body) const {
@@ -146,6 +174,27 @@ void BodyTwists::lose(std::size_t b) {
   for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row)
     at(static_cast<TwistRow>(row), b) = std::numeric_limits<float>::quiet_NaN();
   bodies_[b].is_followed = bodies_[b].rests = false;
+  groups_[twistGroup(slots_[b])].rests = false;
+}
+
+/// Finds the groups that rest now. Writing a body's rows ends its group's rest.
+void BodyTwists::summariseGroups() {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g].rests) continue;
+    TwistGroup group{true};
+    const Followed* first = nullptr;
+    for (std::size_t slot = g * kTwistLanes; slot < (g + 1) * kTwistLanes && group.rests; ++slot) {
+      if (paired_in_[slot] < 0) continue;
+      const auto b = static_cast<std::size_t>(paired_in_[slot]);
+      if (first == nullptr) first = &bodies_[b];
+      group.rests = bodies_[b].rests && bodies_[b].motion_error == first->motion_error;
+      group.far = std::max(group.far, at(TwistRow::kFar, b));
+      group.farthest = std::max(group.farthest, at(TwistRow::kFarthest, b));
+      group.tilt = std::max(group.tilt, at(TwistRow::kTilt, b));
+      group.error = std::max(group.error, at(TwistRow::kError, b));
+    }
+    groups_[g] = group;
+  }
 }
 
 SDF_CCD_LANES void BodyTwists::begin(const CycleMotion& motion, const std::vector<char>& is_whole) {
@@ -177,6 +226,7 @@ SDF_CCD_LANES void BodyTwists::begin(const CycleMotion& motion, const std::vecto
     }
   }
   move(motion, 0);
+  summariseGroups();
 }
 
 SDF_CCD_LANES void BodyTwists::step(const CycleMotion& motion, std::size_t k) {
@@ -189,6 +239,7 @@ SDF_CCD_LANES void BodyTwists::step(const CycleMotion& motion, std::size_t k) {
     }
   }
   move(motion, k);
+  summariseGroups();
 }
 
 void BodyTwists::end(const CycleMotion& motion, const std::vector<char>& is_whole) {
@@ -211,6 +262,7 @@ void BodyTwists::chooseOrigin() {
   if ((center - origin_).squaredNorm() < kNear * kNear) return;
   origin_ = center;
   for (Followed& body : bodies_) body.rests = false;
+  for (TwistGroup& group : groups_) group.rests = false;
 }
 
 /// Sets the pose of a body. @return whether it can be followed.
@@ -285,7 +337,9 @@ void BodyTwists::move(std::size_t b, const Isometry3d& X_WB, const TwistLanes& t
 }
 
 void BodyTwists::write(std::size_t b, const Twist& twist) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Followed& body = bodies_[b];
+  groups_[twistGroup(slots_[b])].rests = false;
   const auto up = [](double x) { return static_cast<float>(kUp * x); };
   const Vector3d point = twist.point_W - origin_;
   for (int k = 0; k < 3; ++k) {
@@ -296,7 +350,8 @@ void BodyTwists::write(std::size_t b, const Twist& twist) {
   const double far = normUpperBound(point) + twist.reach + twist.shift + normUpperBound(scene_.bodies[b].ball.center);
   body.farthest = std::max(body.farthest, far);
   at(TwistRow::kReach, b) = up(twist.reach);
-  at(TwistRow::kOpen, b) = is_open_[b] ? std::numeric_limits<float>::infinity() : 0.0F;
+  at(TwistRow::kOpen, b) = is_open_[b] ? kInfinity : 0.0F;
+  at(TwistRow::kPath, b) = is_open_[b] ? kInfinity : up(twist.shift + twist.turn * twist.reach);
   at(TwistRow::kTurnNoise, b) = up(kNoise * normUpperBound(twist.omega) + twist.turn_noise);
   at(TwistRow::kShiftNoise, b) = up(kNoise * normUpperBound(twist.velocity) + twist.shift_noise + kMin);
   at(TwistRow::kFar, b) = up(far);
@@ -313,8 +368,7 @@ const Isometry3d& BodyTwists::last(const CycleMotion& motion, int body) const {
 }
 
 double BodyTwists::poseError(int body_a, int body_b) const {
-  const float* a = rows() + twistOffset(static_cast<std::size_t>(body_a));
-  const float* b = rows() + twistOffset(static_cast<std::size_t>(body_b));
+  const float *a = rows() + twistOffset(slot(body_a)), *b = rows() + twistOffset(slot(body_b));
   const auto sum = [&](TwistRow row) {
     const std::size_t at = static_cast<std::size_t>(row) * kTwistLanes;
     return double(a[at]) + double(b[at]);

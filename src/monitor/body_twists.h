@@ -17,6 +17,7 @@ enum class TwistRow {
   kPoint = kVelocity + 3,  ///< the reference point relative to origin(), three rows [m]
   kReach = kPoint + 3,     ///< bound of the mean distance of a point of the ball from the reference point [m]
   kOpen,                   ///< 0; infinite if the body's ball does not contain it
+  kPath,                   ///< bound of the path of a point of the body in the step, without noise [m]
   kTurnNoise,              ///< rounding error of the rotation: times a distance, it is one of a displacement [rad]
   kShiftNoise,             ///< further rounding error of a displacement [m]
   kFar,                    ///< bound of the distance of the ball and of the body's frame origin from origin() [m]
@@ -26,14 +27,23 @@ enum class TwistRow {
   kCount
 };
 
-/// So many bodies with consecutive indices are stored together: the values of a row, then those of the next row.
+/// The bodies in so many consecutive slots are a group, stored together: the values of a row, then those of the next.
 constexpr std::size_t kTwistLanes = lanes::kFloatWidth;
 constexpr std::size_t kTwistBlock = kTwistLanes * static_cast<std::size_t>(TwistRow::kCount);
 
-/// Where a body's first row is in BodyTwists::rows(); the others follow at distances of kTwistLanes.
-constexpr std::size_t twistOffset(std::size_t body) {
-  return body / kTwistLanes * kTwistBlock + body % kTwistLanes;
+/// Where a slot's first row is in BodyTwists::rows(); the others follow at distances of kTwistLanes.
+constexpr std::size_t twistOffset(std::size_t slot) {
+  return slot / kTwistLanes * kTwistBlock + slot % kTwistLanes;
 }
+constexpr std::size_t twistGroup(std::size_t slot) {
+  return slot / kTwistLanes;
+}
+
+/// The largest values of a group's bodies while all of them with pairs rest.
+struct TwistGroup {
+  bool rests = false;  ///< in the step, all with the same motion error; the others are valid only then
+  float far = 0.0F, farthest = 0.0F, tilt = 0.0F, error = 0.0F;  ///< as TwistRow
+};
 
 struct TwistLanes;
 
@@ -71,8 +81,12 @@ class BodyTwists {
   /// the index `other_body`; infinite if one of the poses is not known.
   double displacement(int body, const BodyTwists& other, int other_body) const;
 
+  /// Where a body is stored. The world's bodies have groups of their own, which rest most of the time.
+  std::size_t slot(int body) const { return slots_[static_cast<std::size_t>(body)]; }
+
   /// The values of all bodies: see twistOffset().
   const float* rows() const { return rows_.data(); }
+  const TwistGroup* groups() const { return groups_.data(); }
 
   /// The pose of a body at the end of the last cycle, if that was whole. Valid between begin() and end().
   const Isometry3d& last(const CycleMotion& motion, int body) const;
@@ -103,13 +117,19 @@ class BodyTwists {
   void move(std::size_t body, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane);
   void write(std::size_t body, const Twist& twist);
   void lose(std::size_t body);
+  void summariseGroups();
   void chooseOrigin();
+  bool fillGroup(std::size_t first_body) const;
   float& at(TwistRow row, std::size_t body, int offset = 0) {
-    return rows_[twistOffset(body) + (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes];
+    return rows_[twistOffset(slots_[body]) +
+                 (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes];
   }
 
   const Scene& scene_;
+  std::vector<std::size_t> slots_;         // per body
+  std::vector<std::ptrdiff_t> paired_in_;  // per slot: a body with pairs; -1 if there is none
   std::vector<float> rows_;
+  std::vector<TwistGroup> groups_;
   std::vector<Followed> bodies_;
   std::vector<std::size_t> paired_;     // bodies with pairs that can be checked
   std::vector<std::size_t> moving_;     // of these, those that move in the step

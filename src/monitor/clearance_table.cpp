@@ -29,12 +29,15 @@ SDF_CCD_INLINE Floats norm(const Vector& v) {
 class OneBody {
  public:
   SDF_CCD_INLINE void load(const float* first) {
-    for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row) rows_[row] = Floats{} + first[row * kTwistLanes];
+#pragma GCC unroll 32
+    for (int row = 0; row < static_cast<int>(TwistRow::kCount); ++row) rows_[row] = first[row * kTwistLanes] - Floats{};
   }
-  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const { return rows_[static_cast<int>(row) + offset]; }
+  SDF_CCD_INLINE Floats operator()(TwistRow row, int offset = 0) const {
+    return rows_[static_cast<int>(row) + offset];
+  }
 
  private:
-  Floats rows_[static_cast<int>(TwistRow::kCount)];
+  Floats rows_[static_cast<int>(TwistRow::kCount)] = {};
 };
 
 /// The rows of consecutive bodies.
@@ -112,10 +115,42 @@ class Largest {
 
 using Pairs __attribute__((vector_size(sizeof(Ints)))) = std::int64_t;  // of lanes
 
+SDF_CCD_INLINE bool allTrue(const Ints& lanes) {
+  const Pairs pairs = Pairs(lanes);  // a lane is −1 if true
+  return (pairs[0] & pairs[1] & pairs[2] & pairs[3]) == -1;
+}
+
+/// The values of a body that are needed beside others that rest.
+struct BesideResting {
+  float path, turn_noise, far, farthest, tilt, error;
+
+  SDF_CCD_INLINE explicit BesideResting(const float* first) {
+    const auto get = [&](TwistRow row) __attribute__((always_inline)) {
+      return first[static_cast<std::size_t>(row) * kTwistLanes];
+    };
+    path = get(TwistRow::kPath) + get(TwistRow::kShiftNoise);
+    turn_noise = get(TwistRow::kTurnNoise);
+    far = get(TwistRow::kFar);
+    farthest = get(TwistRow::kFarthest);
+    tilt = get(TwistRow::kTilt);
+    error = get(TwistRow::kError);
+  }
+
+  /// Upper bounds of what travelOf() and poseErrorOf() are for the pairs with a group. In travelOf(), w and ω are those
+  /// of the one body, and noise of the others is zero.
+  SDF_CCD_INLINE float travelBeside(const TwistGroup& group) const {
+    return (path + turn_noise * (far + group.far)) * kUpwards;
+  }
+  SDF_CCD_INLINE float poseErrorBeside(const TwistGroup& group) const {
+    return ((tilt + group.tilt) * (farthest + group.farthest) + (error + group.error)) * kUpwards;
+  }
+};
+
 /// Arrays of a scan, in the order of the blocks.
 struct ScanArrays {
   const float* rows;
-  const std::int32_t* blocks;  // two numbers each: Block::rows_a, Block::rows_b
+  const TwistGroup* groups;
+  PairBlock* blocks;
   std::size_t count;
   float* budget;
   float* spent;
@@ -128,11 +163,19 @@ SDF_CCD_LANES
 void addTravel(const ScanArrays& s) {
   OneBody a;
   for (std::size_t i = 0; i < s.count; ++i) {
-    if (i == 0 || s.blocks[2 * i] != s.blocks[2 * i - 2]) a.load(s.rows + s.blocks[2 * i]);
-    const BodiesInRow b{s.rows + s.blocks[2 * i + 1]};
+    if (i == 0 || s.blocks[i].rows_a != s.blocks[i - 1].rows_a) a.load(s.rows + s.blocks[i].rows_a);
+    const BodiesInRow b{s.rows + static_cast<std::size_t>(s.blocks[i].group) * kTwistBlock};
     const std::size_t at = i * kTwistLanes;
     store((load(s.spent + at) + travelOf(a, b)) * kUpwards, s.spent + at);
   }
+}
+
+/// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget;
+/// there is none without motion.
+template <class Numbers>
+SDF_CCD_INLINE Numbers budgetAfter(const Numbers& budget, const Numbers& travel) {
+  const Numbers none{};
+  return (budget - travel) - (travel > none ? budget * kUnit : none);
 }
 
 /// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
@@ -140,19 +183,35 @@ void addTravel(const ScanArrays& s) {
 SDF_CCD_LANES
 SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
   Largest error_bound(-1.0F), overdue(0.0F);
+  SkippedPairs waiting;  // of the blocks that are not scanned
   const Floats zero = {};
   std::size_t found = 0;
   OneBody a;
+  std::int32_t loaded = -1;
   for (std::size_t i = 0; i < s.count; ++i) {
-    if (i == 0 || s.blocks[2 * i] != s.blocks[2 * i - 2]) a.load(s.rows + s.blocks[2 * i]);
-    const BodiesInRow b{s.rows + s.blocks[2 * i + 1]};
+    PairBlock& block = s.blocks[i];
+    const TwistGroup& group = s.groups[block.group];
+    const bool may_wait = group.rests && !add_spent;
+    if (may_wait) {
+      const BesideResting one(s.rows + block.rows_a);
+      const float travel = one.travelBeside(group), error = one.poseErrorBeside(group);
+      const float path = (block.path + travel) * kUpwards;
+      if (budgetAfter(block.least, path) > error + kSoon * travel) {  // false for NaN
+        block.path = path;
+        if (block.error + error > waiting.error) waiting = {block.error + error, block.worst, -1};
+        continue;
+      }
+    }
+    if (loaded != block.rows_a) a.load(s.rows + block.rows_a);
+    loaded = block.rows_a;
+    const BodiesInRow b{s.rows + static_cast<std::size_t>(block.group) * kTwistBlock};
     const std::size_t at = i * kTwistLanes;
-    const Floats budget = load(s.budget + at);
+    Floats budget = load(s.budget + at);
+    const Ints has_pair = budget < kNoPair;
+    if (block.path > 0.0F) budget = has_pair ? budgetAfter(budget, zero + block.path) : budget;
     Floats travel = travelOf(a, b);
     if (add_spent) travel = (travel + load(s.spent + at)) * kUpwards;
-    // Each of the two subtractions has an error of at most half of kUnit times the budget; there is none without
-    // motion.
-    const Floats left = (budget - travel) - (travel > zero ? budget * kUnit : zero);
+    const Floats left = has_pair ? budgetAfter(budget, travel) : budget;
     const Floats error = poseErrorOf(a, b);
     const Ints is_quiet = left > error;  // false for NaN
     store(is_quiet ? left : budget, s.budget + at);
@@ -160,13 +219,16 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
     error_bound.take(bound, i);
     overdue.take(is_quiet ? load(s.soon + at) * travel - (left - error) : zero, i);
-    const Pairs quiet = Pairs(is_quiet);  // a lane is −1 if true
+    const bool all_quiet = allTrue(is_quiet | ~has_pair);
     due_blocks[found] = i;
-    found += (quiet[0] & quiet[1] & quiet[2] & quiet[3]) != -1;
+    found += all_quiet ? 0 : 1;
+    block.path = 0.0F;
+    block.least = may_wait && all_quiet ? leastOf(left) : -std::numeric_limits<float>::infinity();
   }
   *due_count = found;
   SkippedPairs quiet;
   std::tie(quiet.error, quiet.pair) = error_bound.get();
+  if (waiting.error > quiet.error) quiet = waiting;
   quiet.soon = overdue.get().second;
   return quiet;
 }
@@ -178,22 +240,26 @@ float roundedDown(double x) {
 
 }  // namespace
 
-ClearanceTable::ClearanceTable(const std::vector<PlannedPair>& pairs) : margin_(pairs.size(), 0.0) {
-  constexpr auto kLanes = static_cast<int>(kTwistLanes);
-  const auto keyOf = [](const PlannedPair& pair) { return std::pair(pair.body_a, pair.body_b / kLanes); };
-  std::map<std::pair<int, int>, std::size_t> known;  // block by body and row of bodies
-  for (const PlannedPair& pair : pairs) known.emplace(keyOf(pair), 0);
+ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : margin_(scene.pairs.size(), 0.0) {
+  using Key = std::pair<std::int32_t, std::int32_t>;  // PairBlock::rows_a and group
+  std::vector<std::pair<Key, std::size_t>> placed;    // per pair: its block and lane
+  std::map<Key, std::size_t> known;                   // blocks
+  for (const PlannedPair& pair : scene.pairs) {
+    std::size_t one = bodies.slot(pair.body_a), other = bodies.slot(pair.body_b);
+    if (one > other) std::swap(one, other);
+    const Key key(twistOffset(one), twistGroup(other));
+    placed.emplace_back(key, other % kTwistLanes);
+    known.emplace(key, 0);
+  }
   for (auto& [key, block] : known) {
-    const auto rowsOf = [](int body) { return static_cast<std::int32_t>(twistOffset(static_cast<std::size_t>(body))); };
     block = blocks_.size();
-    blocks_.push_back({rowsOf(key.first), rowsOf(key.second * kLanes)});
+    blocks_.push_back({key.first, key.second});
   }
   pairs_.assign(kTwistLanes * blocks_.size(), -1);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const std::size_t slot =
-        kTwistLanes * known.at(keyOf(pairs[i])) + static_cast<std::size_t>(pairs[i].body_b % kLanes);
+  for (const auto& [key, lane] : placed) {
+    const std::size_t slot = kTwistLanes * known.at(key) + lane;
     if (pairs_[slot] >= 0) throw std::invalid_argument("clearance table: a pair of bodies occurs twice");
-    pairs_[slot] = static_cast<std::int32_t>(i);
+    pairs_[slot] = static_cast<std::int32_t>(slots_.size());
     slots_.push_back(static_cast<std::int32_t>(slot));
   }
   budget_.assign(pairs_.size(), kNoPair);
@@ -209,11 +275,37 @@ void ClearanceTable::setMargin(int pair, double margin, double error, bool measu
   margin_[static_cast<std::size_t>(pair)] = margin;
   soon_[slot(pair)] = measurable ? kSoon : kNever;
   error_[slot(pair)] = static_cast<float>(error) * kUpwards;
+  PairBlock& block = blocks_[blockOf(slot(pair))];
+  const auto first = error_.begin() + static_cast<std::ptrdiff_t>(blockOf(slot(pair)) * kTwistLanes);
+  const auto largest = std::max_element(first, first + kTwistLanes);
+  block.error = *largest;
+  block.worst = static_cast<std::int32_t>(largest - error_.begin());
+}
+
+/// A slot's budget now: in its block's rest, it still is that before.
+double ClearanceTable::budgetIn(std::size_t slot) const {
+  return double(budget_[slot]) - double(blocks_[blockOf(slot)].path);
+}
+
+/// Ends the rest of a block.
+void ClearanceTable::settle(PairBlock& block) {
+  block.least = kUnknown;
+  if (!(block.path > 0.0F)) return;
+  const auto first = static_cast<std::size_t>(&block - blocks_.data()) * kTwistLanes;
+  for (std::size_t slot = first; slot < first + kTwistLanes; ++slot)
+    if (pairs_[slot] >= 0) budget_[slot] = roundedDown(budgetIn(slot));
+  block.path = 0.0F;
+}
+
+/// A pair's budget, to be changed.
+float& ClearanceTable::settled(int pair) {
+  settle(blocks_[blockOf(slot(pair))]);
+  return budget_[slot(pair)];
 }
 
 void ClearanceTable::set(int pair, double clearance) {
   constexpr double kFar = 1e6;  // [m]: farther pairs are tested earlier than necessary
-  budget_[slot(pair)] = roundedDown(std::min(clearance - margin(pair), kFar));
+  settled(pair) = roundedDown(std::min(clearance - margin(pair), kFar));
   if (soon_[slot(pair)] == kPaused) soon_[slot(pair)] = kSoon;
 }
 
@@ -222,19 +314,30 @@ void ClearanceTable::pauseSoon(int pair) {
 }
 
 void ClearanceTable::spend(int pair, double displacement) {
-  float& budget = budget_[slot(pair)];
+  float& budget = settled(pair);
   budget = roundedDown(double(budget) - displacement);
   if (!(budget > 0.0F)) budget = kUnknown;
 }
 
+void ClearanceTable::forget(int pair) {
+  settled(pair) = kUnknown;
+}
+
 void ClearanceTable::forget() {
+  for (PairBlock& block : blocks_) settle(block);
   for (const std::int32_t slot : slots_) budget_[static_cast<std::size_t>(slot)] = kUnknown;
+}
+
+void ClearanceTable::take(const ClearanceTable& other, const std::vector<Moved>& pairs) {
+  for (PairBlock& block : blocks_) settle(block);
+  for (const Moved& pair : pairs)
+    budget_[static_cast<std::size_t>(pair.to)] = roundedDown(other.budgetIn(static_cast<std::size_t>(pair.from)));
 }
 
 void ClearanceTable::advance(const BodyTwists& bodies) {
   if (blocks_.empty()) return;
-  addTravel({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(), slack_.data(),
-             error_.data(), soon_.data()});
+  addTravel({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), budget_.data(), spent_.data(),
+             slack_.data(), error_.data(), soon_.data()});
   has_spent_ = true;
 }
 
@@ -242,8 +345,8 @@ SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePai
   due.clear();
   if (blocks_.empty()) return {};
   std::size_t count = 0;
-  SkippedPairs quiet = scanPairs({bodies.rows(), &blocks_.data()->rows_a, blocks_.size(), budget_.data(), spent_.data(),
-                                  slack_.data(), error_.data(), soon_.data()},
+  SkippedPairs quiet = scanPairs({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), budget_.data(),
+                                  spent_.data(), slack_.data(), error_.data(), soon_.data()},
                                  has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;

@@ -17,22 +17,37 @@ struct DuePair {
 
 /// Summary of a scan over the pairs that are not due.
 struct SkippedPairs {
-  float error = -1.0F;  ///< their largest error bound [m]; negative if there are none
-  int pair = -1;        ///< the pair with that bound
+  float error = -1.0F;  ///< upper bound of their error bounds [m]; negative if there are none
+  int pair = -1;        ///< the pair that comes nearest to it
   int soon = -1;        ///< a pair that two more cycles like this one would make due, the one by the largest distance
+};
+
+/// Pairs of one body with the kTwistLanes bodies of a group.
+struct PairBlock {
+  std::int32_t rows_a;  ///< twistOffset() of the one body
+  std::int32_t group;   ///< of the others
+  /// The smallest of the pairs' budgets at their last scan; −∞ if they must be scanned again [m].
+  float least = -std::numeric_limits<float>::infinity();
+  float path = 0.0F;       ///< bound of the one body's path since then, in which the others rested [m]
+  float error = 0.0F;      ///< the largest error bound, without the motion's error [m]
+  std::int32_t worst = 0;  ///< the slot of the pair with that bound
 };
 
 /// Stores for every pair how far its bodies may still move relative to each other before it must be tested. This budget
 /// is the known clearance minus the margin within which a test could find something.
 ///
-/// Pairs are stored in blocks of one body against kTwistLanes bodies with consecutive indices, so that a scan reads all
-/// data as vectors without gathers. Lanes without a pair cost nothing extra. Budgets are rounded down.
+/// Pairs are stored in blocks of one body (the robot's, if the other is the world's) against kTwistLanes bodies of a
+/// group, so that a scan reads all data as vectors without gathers. Lanes without a pair cost nothing extra. Budgets
+/// are rounded down.
+///
+/// While the bodies of a block's group rest, no pair of it is closer than its budget before minus the path of the one
+/// body. So long as that leaves the smallest of the budgets far from used up, only this path is added up.
 class ClearanceTable {
  public:
   static constexpr float kUnknown = -std::numeric_limits<float>::infinity();
 
   /// @throws std::invalid_argument if two pairs are of the same bodies.
-  explicit ClearanceTable(const std::vector<PlannedPair>& pairs);
+  ClearanceTable(const Scene& scene, const BodyTwists& bodies);
 
   /// @param margin  distance within which a test could find something, without the motion's error [m].
   /// @param error   the pair's error bound, without the motion's error [m].
@@ -44,7 +59,7 @@ class ClearanceTable {
   void set(int pair, double clearance);
   /// Until set() is called, SkippedPairs::soon is not the pair.
   void pauseSoon(int pair);
-  void forget(int pair) { budget_[slot(pair)] = kUnknown; }
+  void forget(int pair);
   void forget();
 
   /// A pair's slots in this table and in another one.
@@ -56,10 +71,7 @@ class ClearanceTable {
   }
 
   /// Takes over budgets from another table between two cycles.
-  void take(const ClearanceTable& other, const std::vector<Moved>& pairs) {
-    for (const Moved& pair : pairs)
-      budget_[static_cast<std::size_t>(pair.to)] = other.budget_[static_cast<std::size_t>(pair.from)];
-  }
+  void take(const ClearanceTable& other, const std::vector<Moved>& pairs);
 
   /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m]. The clearance is forgotten
   /// if it is used up: one body may be inside the other then, though their surfaces are apart.
@@ -69,7 +81,7 @@ class ClearanceTable {
   bool isKnown(int pair) const { return budget_[slot(pair)] != kUnknown; }
 
   /// A lower bound of the distance after the last scan; for a due pair, before it [m].
-  double clearance(int pair) const { return double(budget_[slot(pair)]) + margin_[static_cast<std::size_t>(pair)]; }
+  double clearance(int pair) const { return budgetIn(slot(pair)) + margin_[static_cast<std::size_t>(pair)]; }
   double margin(int pair) const { return margin_[static_cast<std::size_t>(pair)]; }
 
   /// Subtracts an upper bound of the bodies' relative displacement in a step that is not the cycle's last.
@@ -81,14 +93,14 @@ class ClearanceTable {
   SkippedPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due);
 
  private:
-  struct Block {
-    std::int32_t rows_a;  // twistOffset() of one body
-    std::int32_t rows_b;  // of the first of kTwistLanes bodies
-  };
-
   std::size_t slot(int pair) const { return static_cast<std::size_t>(slots_[static_cast<std::size_t>(pair)]); }
 
-  std::vector<Block> blocks_;
+  static std::size_t blockOf(std::size_t slot) { return slot / kTwistLanes; }
+  double budgetIn(std::size_t slot) const;
+  float& settled(int pair);
+  void settle(PairBlock& block);
+
+  std::vector<PairBlock> blocks_;
   std::vector<std::int32_t> slots_;  // per pair
   std::vector<double> margin_;       // per pair [m]
   std::vector<std::int32_t> pairs_;  // per slot; -1: no pair

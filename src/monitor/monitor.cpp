@@ -220,8 +220,12 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
 void Monitor::Impl::summarise(std::size_t end) {
   CycleSummary summary(result, end);
   for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
-  const int worst = schedule->worstSkipped();
-  summary.addSkipped(schedule->skippedCount(), worst < 0 ? ErrorBound() : errorOf(worst));
+  ErrorBound worst;
+  if (schedule->worstSkipped() >= 0) {
+    worst = errorOf(schedule->worstSkipped());
+    worst.chord += std::max(0.0, schedule->worstError() - worst.total());
+  }
+  summary.addSkipped(schedule->skippedCount(), worst);
   summary.finish();
 }
 

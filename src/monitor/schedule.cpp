@@ -7,7 +7,7 @@ namespace sdf_ccd {
 Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
     : scene_(scene),
       bodies_(scene),
-      table_(scene.pairs),
+      table_(scene, bodies_),
       is_paired_(scene.bodies.size(), 0),
       is_whole_(scene.bodies.size(), 0) {
   for (std::size_t i = 0; i < checkers.size(); ++i)

@@ -30,6 +30,8 @@ class Schedule {
 
   /// The pair with the largest error bound among those that are not due; −1 if all are due.
   int worstSkipped() const { return quiet_.pair; }
+  /// Upper bound of all of their error bounds [m].
+  double worstError() const { return quiet_.error; }
 
   /// A pair that is not due but will be soon, if the motion continues; −1 if there is none.
   int soon() const { return quiet_.soon; }

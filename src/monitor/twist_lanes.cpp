@@ -73,6 +73,7 @@ SDF_CCD_LANES void computeTwists(const std::array<BodyStep, TwistLanes::kCount>&
 
   store(end_W, twists.center_W);
   store(omega, twists.omega);
+  lanes::store(squareRoot(omega.dot(omega)), twists.turn.data());
   store(displacement + omega.cross(omega.cross(displacement)) * (Doubles{} + 1.0 / 12.0), twists.velocity);
   store((start_W + end_W) * (Doubles{} + 0.5), twists.point_W);
   lanes::store(end.defect(), twists.defect.data());

@@ -25,9 +25,10 @@ struct TwistLanes {
   Lane defect;       ///< upper bound of |RᵀR − 1| of the end's rotation R, without rounding
   Lane trace;        ///< of the rotation in the step. If it is not above kTrace, the values below are not valid
   Vector omega;      ///< rotation vector in world axes [rad]
+  Lane turn;         ///< its amount [rad]
   Vector velocity;   ///< of the reference point, per step [m]
   Vector point_W;    ///< the reference point: the middle between the ball's centres at the start and the end [m]
-  Lane shift;        ///< displacement of the ball's centre [m]
+  Lane shift;        ///< displacement of the ball's centre, no less than the velocity's amount [m]
   Lane coordinates;  ///< sum of the coordinates' amounts of both translations and of the ball's centre [m]
 
   static Vector3d at(const Vector& vector, std::size_t lane) {
@@ -43,6 +44,7 @@ struct TwistLanes {
 ///
 /// θ / sin θ = asin(s)/s = 1 + s²/6 + 3 s⁴/40 + 5 s⁶/112 + …; the relative error of truncation is below 2e-9.
 /// (θ/2) cot(θ/2) = 1 − θ²/12 − θ⁴/720 − …; the truncated terms are below 4e-7 of Δ_⊥, and θ² Δ_⊥ = −ω × (ω × Δ).
+/// So the velocity's amount is at most |Δ|.
 void computeTwists(const std::array<BodyStep, TwistLanes::kCount>& steps, TwistLanes& twists);
 
 }  // namespace sdf_ccd

@@ -5,80 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/two_body_motion.h"
+#include "monitor/clearance_table_case.h"
 #include "oracle/long_screw.h"
-#include "oracle/random.h"
 
 namespace sdf_ccd {
 namespace {
 
 using namespace test;
-
-constexpr double kBudget = 64.0;  // [m]
-
-/// Bodies that are balls, and most of their pairs.
-Scene balls(int count, Random& random) {
-  Scene scene;
-  for (int i = 0; i < count; ++i) {
-    Body body;
-    body.name = std::to_string(i);
-    body.ball = {uniform(random, 0.0, 0.3) * direction(random), uniform(random, 0.01, 0.3)};
-    scene.bodies.push_back(body);
-    for (int k = 0; k < i; ++k)
-      if ((i + k) % 7 != 0) scene.pairs.push_back({k, i, true, true});
-  }
-  return scene;
-}
-
-/// How the bodies of a trial move.
-struct Family {
-  double angle, shift;  // largest per step [rad], [m]
-  double apart;         // spread of the bodies [m]
-  double away;          // distance from the origin [m]
-  bool on_a_base;       // all of them move with a common base, apart from small motions
-};
-
-/// A random pose near X, as after a step.
-Isometry3d moved(const Isometry3d& X, double angle, double shift, Random& random) {
-  const Vector3d axis = direction(random), along = direction(random);
-  Isometry3d next = X;
-  next.linear() = Quaterniond(Eigen::AngleAxisd(uniform(random, 0.0, angle), axis) * Quaterniond(X.linear()))
-                      .normalized()
-                      .toRotationMatrix();
-  next.translation() += uniform(random, 0.0, shift) * along;
-  return next;
-}
-
-CycleMotion motionOf(const Family& family, int bodies, int steps, Random& random) {
-  CycleMotion motion;
-  for (int k = 0; k <= steps; ++k) motion.times.push_back(k);
-  const Vector3d place = family.away * direction(random);
-  std::vector<Isometry3d> base = {pose(random, 3.0, 0.0)};
-  base.back().translation() = place;
-  for (int k = 0; k < steps; ++k) base.push_back(moved(base.back(), family.angle, family.shift, random));
-  for (int b = 0; b < bodies; ++b) {
-    const bool rests = random() % 4 == 0;
-    Isometry3d X = pose(random, 3.0, family.apart);
-    std::vector<Isometry3d> X_WB;
-    for (int k = 0; k <= steps; ++k) {
-      Isometry3d placed = X;
-      placed.translation() += place;
-      X_WB.push_back(family.on_a_base ? base[std::size_t(k)] * X : placed);
-      const double share = family.on_a_base ? 1e-3 : 1.0;
-      if (!rests) X = moved(X, share * family.angle, share * family.shift, random);
-    }
-    motion.X_WB.push_back(X_WB);
-  }
-  return motion;
-}
-
-/// A motion of one second at rest in the other motion's first poses.
-CycleMotion restAt(const CycleMotion& motion) {
-  CycleMotion rest;
-  rest.times = {0.0, 1.0};
-  for (const auto& X_WB : motion.X_WB) rest.X_WB.push_back({X_WB.front(), X_WB.front()});
-  return rest;
-}
 
 /// Largest change of the distance of two points, one in each ball, over a motion; found by random climbing.
 Real largestChange(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion, Random& random) {
@@ -116,26 +49,6 @@ Real largestChange(const Scene& scene, const PlannedPair& pair, const CycleMotio
   return most;
 }
 
-/// Upper bound of the displacement of P's ball's points relative to F in a step, from twists in double precision.
-double travelOf(const WorldTwist& F, const WorldTwist& P) {
-  const Vector3d u = P.velocity - F.velocityAt(P.center);
-  return u.norm() + (P.omega - F.omega).norm() * (P.radius + 0.25 * P.speed());
-}
-
-/// The sum over all steps of the smaller bound of the two balls.
-double boundOf(const Scene& scene, const PlannedPair& pair, const CycleMotion& motion) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
-    const auto twist = [&](int body) {
-      const auto& X_WB = motion.X_WB[std::size_t(body)];
-      return worldTwist(ScrewMotion(X_WB[k], X_WB[k + 1]), scene.bodies[std::size_t(body)].ball);
-    };
-    const WorldTwist a = twist(pair.body_a), b = twist(pair.body_b);
-    sum += std::min(travelOf(a, b), travelOf(b, a));
-  }
-  return sum;
-}
-
 TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
   Random random(1);
   const std::vector<Family> families = {
@@ -153,7 +66,7 @@ TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
     const CycleMotion before = restAt(motion);
     const std::vector<char> whole(scene.bodies.size(), 1);
     BodyTwists bodies(scene);
-    ClearanceTable table(scene.pairs);
+    ClearanceTable table(scene, bodies);
     std::vector<DuePair> due;
     const auto run = [&](const CycleMotion& next) {
       bodies.begin(next, whole);
@@ -193,7 +106,7 @@ TEST(ClearanceTable, KeepsABudgetExactlyWhileNothingMoves) {
   const std::vector<char> whole(9, 1);
   const CycleMotion motion = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
   BodyTwists bodies(scene);
-  ClearanceTable table(scene.pairs);
+  ClearanceTable table(scene, bodies);
   std::vector<DuePair> due;
   bodies.begin(motion, whole);
   bodies.end(motion, whole);
@@ -215,7 +128,7 @@ TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
   const std::vector<char> whole(9, 1);
   const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
   BodyTwists bodies(scene);
-  ClearanceTable table(scene.pairs);
+  ClearanceTable table(scene, bodies);
   std::vector<DuePair> due;
   bodies.begin(still, whole);
   bodies.end(still, whole);
@@ -241,7 +154,7 @@ TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
   const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 1.0, false}, 9, 1, random));
   const auto dueAfter = [&](const CycleMotion& motion) {
     BodyTwists bodies(scene);
-    ClearanceTable table(scene.pairs);
+    ClearanceTable table(scene, bodies);
     std::vector<DuePair> due;
     bodies.begin(still, whole);
     bodies.end(still, whole);
@@ -294,7 +207,7 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   enum class Second { kMeasurable, kNotMeasurable, kPaused };
   const auto soonWith = [&](double first, double second, double third, Second kind = Second::kMeasurable) {
     BodyTwists bodies(scene);
-    ClearanceTable table(scene.pairs);
+    ClearanceTable table(scene, bodies);
     std::vector<DuePair> due;
     bodies.begin(still, whole);
     bodies.end(still, whole);
@@ -322,8 +235,8 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
 /// As after the world has lost its last body: undefined behaviour only sanitizers see.
 TEST(ClearanceTable, OfNoPairsNoneIsDue) {
   const Scene scene;
-  ClearanceTable table(scene.pairs);
   BodyTwists bodies(scene);
+  ClearanceTable table(scene, bodies);
   std::vector<DuePair> due(1);
   table.advance(bodies);
   EXPECT_EQ(table.finish(bodies, due).pair, -1);

@@ -1,0 +1,157 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "monitor/clearance_table.h"
+#include "monitor/clearance_table_case.h"
+#include "oracle/long_screw.h"
+
+// Pairs of moving bodies with groups of bodies that rest.
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// A few bodies of a robot among many of the world, most of which rest most of the time.
+Scene robotInAWorld(Random& random) {
+  const Scene all = balls(26, random);
+  Scene scene;
+  for (std::size_t b = 0; b < all.bodies.size(); ++b) {
+    Body body = all.bodies[b];
+    body.is_world = b >= 6;
+    scene.bodies.push_back(body);
+  }
+  for (const PlannedPair& pair : all.pairs)
+    if (pair.body_a < 6) scene.pairs.push_back(pair);
+  return scene;
+}
+
+/// While the world rests, only the paths of the robot's bodies are added up. In 400 cycles, in which some of the world
+/// moves now and then and pairs are set, forgotten and spent, no distance changes by more than the budget does.
+TEST(RestingBodies, BudgetsAreNoLargerThanWhatIsLeft) {
+  Random random(6);
+  const Scene scene = robotInAWorld(random);
+  const std::size_t count = scene.pairs.size();
+  const std::vector<char> whole(scene.bodies.size(), 1);
+  std::vector<Isometry3d> X_WB;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) X_WB.push_back(pose(random, 3.0, 2.0));
+  struct Watched {
+    Vector3d p_A, p_B;
+    Real distance;  // when the clearance was set
+    double spent;   // since then, by spend()
+    double bound;   // the smaller bound of the two balls, summed up
+  };
+  std::vector<Watched> watched(count);
+  const auto distanceOf = [&](const PlannedPair& pair, const Watched& w) {
+    const auto at = [&](int body, const Vector3d& p) {
+      const Isometry3d& X = X_WB[std::size_t(body)];
+      return Eigen::Matrix<Real, 3, 1>(X.linear().cast<Real>() * p.cast<Real>() + X.translation().cast<Real>());
+    };
+    return (at(pair.body_a, w.p_A) - at(pair.body_b, w.p_B)).norm();
+  };
+  BodyTwists bodies(scene);
+  ClearanceTable table(scene, bodies);
+  std::vector<DuePair> due;
+  const auto set = [&](std::size_t i) {
+    const PlannedPair& pair = scene.pairs[i];
+    const auto pointOf = [&](int body) {
+      const BoundingBall& ball = scene.bodies[std::size_t(body)].ball;
+      return Vector3d(ball.center + ball.radius * direction(random));
+    };
+    watched[i] = {pointOf(pair.body_a), pointOf(pair.body_b), 0, 0.0, 0.0};
+    watched[i].distance = distanceOf(pair, watched[i]);
+    table.set(int(i), kBudget);
+  };
+  int looser = 0;
+  double worst = 0.0;
+  for (int cycle = 0; cycle < 400; ++cycle) {
+    CycleMotion motion;
+    const int steps = cycle % 13 == 0 ? 3 : 1;
+    for (int k = 0; k <= steps; ++k) motion.times.push_back(k);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+      motion.X_WB.push_back({X_WB[b]});
+      const bool moves = b < 6 ? random() % 10 != 0 : cycle % 50 > 40 && b == 6 + std::size_t(cycle) % 20;
+      for (int k = 0; k < steps; ++k)
+        motion.X_WB[b].push_back(moves ? moved(motion.X_WB[b].back(), 0.01, 0.01, random) : motion.X_WB[b].back());
+    }
+    bodies.begin(motion, whole);
+    for (int k = 0; k < steps; ++k) {
+      if (k > 0) bodies.step(motion, std::size_t(k));
+      if (k + 1 < steps) table.advance(bodies);
+    }
+    table.finish(bodies, due);
+    bodies.end(motion, whole);
+    for (std::size_t b = 0; b < X_WB.size(); ++b) X_WB[b] = motion.X_WB[b].back();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (cycle == 0 || !table.isKnown(int(i))) {
+        set(i);
+        continue;
+      }
+      Watched& w = watched[i];
+      const double used = kBudget - table.clearance(int(i)) - w.spent;
+      const Real change = std::abs(distanceOf(scene.pairs[i], w) - w.distance);
+      ASSERT_GE(used, change) << "cycle " << cycle << ", pair " << i;
+      w.bound += boundOf(scene, scene.pairs[i], motion);
+      ASSERT_LE(used, 3.0 * w.bound + 1e-3) << "cycle " << cycle << ", pair " << i;
+      looser += used > 1.05 * w.bound + 1e-3;
+      worst = std::max(worst, double(change) / (used + 1e-6));
+      if (random() % 200 == 0) set(i);
+      if (random() % 500 == 0) table.forget(int(i));
+      if (random() % 100 != 0 || !table.isKnown(int(i))) continue;
+      w.spent += 0.125;
+      table.spend(int(i), 0.125);
+    }
+  }
+  EXPECT_GT(looser, 1000) << "no path was added up";
+  EXPECT_GT(worst, 0.9);
+}
+
+/// The error bound of pairs that are not due, also where their blocks are not scanned.
+TEST(RestingBodies, TheLargestErrorIsReported) {
+  Random random(7);
+  const Scene scene = robotInAWorld(random);
+  const std::vector<char> whole(scene.bodies.size(), 1);
+  const int count = int(scene.pairs.size());
+  for (int trial = 0; trial < 50; ++trial) {
+    BodyTwists bodies(scene);
+    ClearanceTable table(scene, bodies);
+    std::vector<double> errors;
+    std::vector<DuePair> due;
+    for (int i = 0; i < count; ++i) {
+      errors.push_back(uniform(random, 0.0, 1e-3));
+      table.setMargin(i, 0.0, errors.back());
+    }
+    CycleMotion motion = restAt(motionOf({0.0, 0.0, 2.0, 1.0, false}, 26, 1, random));
+    motion.motion_error.assign(26, 0.0);
+    for (int cycle = 0; cycle < 5; ++cycle) {
+      for (int b = 0; b < 26; ++b) {
+        Isometry3d& X = motion.X_WB[std::size_t(b)][0];
+        X = motion.X_WB[std::size_t(b)][1];
+        const bool is_vague = b < 6 || trial % 3 == 0;
+        if (is_vague) motion.motion_error[std::size_t(b)] = random() % 3 == 0 ? uniform(random, 0.0, 1e-3) : 0.0;
+        if (!is_vague) motion.motion_error[std::size_t(b)] = trial % 3 == 1 ? 1e-3 : 0.0;
+        if (b < 6) motion.X_WB[std::size_t(b)][1] = moved(X, 1e-3, 1e-3, random);
+      }
+      bodies.begin(motion, whole);
+      const SkippedPairs quiet = table.finish(bodies, due);
+      if (cycle > 0) {
+        ASSERT_TRUE(due.empty());
+        double largest = 0.0;
+        for (int i = 0; i < count; ++i) {
+          const PlannedPair& pair = scene.pairs[std::size_t(i)];
+          largest = std::max(largest, errors[std::size_t(i)] + bodies.poseError(pair.body_a, pair.body_b));
+        }
+        ASSERT_GE(quiet.error, largest);
+        ASSERT_LE(quiet.error, largest + 1e-8);
+        ASSERT_GE(quiet.pair, 0);
+      }
+      bodies.end(motion, whole);
+      for (int i = 0; i < count && cycle == 0; ++i) table.set(i, kBudget);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
