@@ -17,13 +17,13 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
   while (!pending.empty()) {
     const SphereTree::Node& node = tree.nodes[static_cast<std::size_t>(pending.back())];
     pending.pop_back();
-    if (field.lowerBound(X_FP * node.center) - node.radius > cut()) continue;
+    if (field.lowerBound(X_FP * node.ball().center) - node.radius > cut()) continue;
     if (node.first_child >= 0) {
       const auto first = static_cast<std::ptrdiff_t>(pending.size());
       for (int k = 0; k < node.child_count; ++k) pending.push_back(node.first_child + k);
       // The last one is examined next: the one whose centre is nearest.
       const auto nearer = [&](int a, int b) {
-        return field.lowerBound(X_FP * tree.nodes[a].center) < field.lowerBound(X_FP * tree.nodes[b].center);
+        return field.lowerBound(X_FP * tree.nodes[a].ball().center) < field.lowerBound(X_FP * tree.nodes[b].ball().center);
       };
       const auto best = std::min_element(pending.begin() + first, pending.end(), nearer);
       std::iter_swap(best, pending.end() - 1);

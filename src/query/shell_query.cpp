@@ -43,7 +43,7 @@ class ShellSearch {
         work_(searchWork()),
         // A point's roots are those of the interpolated field; the spheres' test is about the true distance.
         sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma},
-               {tree.nodes[0].center, tree.nodes[0].radius}),
+               tree.nodes[0].ball()),
         points_(field, shell, options, result) {}
 
   bool done() const { return options_.any && result_.touches(); }
@@ -80,7 +80,8 @@ class ShellSearch {
     const std::int32_t i = work_.stack.back();
     work_.stack.pop_back();
     ++result_.nodes_visited;
-    take(i, sides_.of(nodes_[i].center, nodes_[i].radius));
+    const BoundingBall ball = nodes_[i].ball();
+    take(i, sides_.of(ball.center, ball.radius));
   }
 
   /// Tests the topmost nodes of the stack together.
@@ -218,7 +219,7 @@ double clearance(const DistanceField& field, const SphereTree& tree, const Point
     cancel.check();
     const SphereTree::Node& node = tree.nodes[stack.back()];
     stack.pop_back();
-    const double low = field.lowerBound(X_FP * node.center) - node.radius;
+    const double low = field.lowerBound(X_FP * node.ball().center) - node.radius;
     if (low >= nearest - slack) {
       bound = std::min(bound, low);
       continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "sdf_ccd/common/cancel.h"
@@ -41,8 +42,13 @@ class Builder {
   const Vector3d& point(std::int32_t i) const { return points_[order_[i]]; }
 
   SphereTree::Node node(std::int32_t begin, std::int32_t end) const {
-    const BoundingBall ball = boundingBall(begin, end);
-    return {ball.center, ball.radius, begin, end, -1, 0};
+    constexpr double kLargest = 1e38;  // beyond single precision
+    const Vector3d exact = boundingBall(begin, end).center;
+    const Vector3f center = exact.cwiseMax(-kLargest).cwiseMin(kLargest).cast<float>();
+    const double radius = farthest(center.cast<double>(), begin, end).second;
+    // Half a step more than necessary at least: distances computed elsewhere round differently.
+    const float up = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
+    return {center, radius > 0.0 ? up : 0.0F, begin, end, -1, 0};
   }
 
   /// Halves the points along the longest side of their box; ties between equal coordinates are broken by the index.
@@ -91,7 +97,6 @@ class Builder {
       if (radius < best.radius) best = {center, radius};
       center += (point(index) - center) / (step + 3);
     }
-    best.radius *= 1 + 1e-14;  // distances computed elsewhere round differently
     return best;
   }
 

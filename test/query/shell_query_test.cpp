@@ -19,7 +19,7 @@ namespace {
 using test::Random;
 
 BoundingBall rootBall(const SphereTree& tree) {
-  return {tree.nodes[0].center, tree.nodes[0].radius};
+  return tree.nodes[0].ball();
 }
 
 /// Queries every point on every chord, without the tree. Grids are queried in batches, as in the shell query.

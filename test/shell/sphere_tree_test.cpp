@@ -38,7 +38,7 @@ void expectSound(const SphereTree& tree, const PointShell& shell) {
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const SphereTree::Node& node = tree.nodes[n];
     for (int i = node.begin; i < node.end; ++i) {
-      ASSERT_LE((shell.points[i] - node.center).norm(), node.radius);
+      ASSERT_LE((shell.points[i] - node.ball().center).norm(), node.ball().radius);
       if (node.first_child < 0) ++in_leaves[i];
     }
     if (node.first_child < 0) {
@@ -79,7 +79,7 @@ TEST(SphereTree, OnePointIsALeafOfNoRadius) {
   const SphereTree tree = buildSphereTree(shell);
   ASSERT_EQ(tree.nodes.size(), 1u);
   EXPECT_EQ(tree.nodes[0].radius, 0);
-  EXPECT_EQ(tree.nodes[0].center, Vector3d(1, 2, 3));
+  EXPECT_EQ(tree.nodes[0].center, Vector3f(1, 2, 3));
   expectSound(tree, shell);
 }
 
@@ -103,6 +103,21 @@ TEST(SphereTree, SpheresAreTight) {
   EXPECT_LT(tree.nodes[0].radius, 1.001);
   PointShell box = sampleSurface(Primitive(Box{{1, 0.5, 0.25}}), options);
   EXPECT_LT(buildSphereTree(box).nodes[0].radius, 1.001 * Vector3d(1, 0.5, 0.25).norm());
+}
+
+/// Centres are rounded to single precision: radii are about the rounded ones, also far from the origin, where these are
+/// coarse, and for sizes beyond single precision.
+TEST(SphereTree, HoldsPointsThatSinglePrecisionRounds) {
+  for (const double scale : {1e-60, 1e-9, 1.0, 1e9, 1e60}) {
+    for (const double away : {0.0, 1e-3, 1e6}) {
+      PointShell shell;
+      for (const Vector3d& p : randomPoints(100)) shell.points.push_back(scale * (p + Vector3d::Constant(away)));
+      expectSound(buildSphereTree(shell), shell);
+    }
+  }
+  PointShell point;
+  point.points = {{0.1, 0.2, 1e-50}};
+  expectSound(buildSphereTree(point), point);
 }
 
 TEST(SphereTree, IsTheSameEveryTime) {

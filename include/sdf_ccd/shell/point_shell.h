@@ -42,14 +42,16 @@ struct ShellOptions {
 
 /// Bounding spheres over the points of a shell (paper §3.3), nested: each node's sphere holds all points below it.
 struct SphereTree {
-  /// A sphere around consecutive points.
+  /// A sphere around consecutive points, in single precision.
   struct Node {
-    Vector3d center;     ///< [m], frame P
-    double radius;       ///< [m]
+    Vector3f center;     ///< [m], frame P
+    float radius;        ///< about the rounded center, rounded up [m]
     std::int32_t begin;  ///< points [begin, end) of the shell lie below this node
     std::int32_t end;
     std::int32_t first_child;  ///< children are consecutive; -1 for a leaf
     std::int32_t child_count;
+
+    BoundingBall ball() const { return {center.cast<double>(), double(radius)}; }
   };
   /// Root first, level by level: children of neighbours are neighbours too. Empty for an empty shell.
   std::vector<Node> nodes;

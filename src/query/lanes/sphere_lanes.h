@@ -21,10 +21,11 @@ struct SphereGroup {
   Column<std::int32_t> side;            ///< the result: a SweptSide
   int size = 0;
 
-  void add(const Vector3d& p_P, double r) {
-    for (int k = 0; k < 3; ++k) center[k][size] = static_cast<float>(p_P[k]);
-    radius[size++] = static_cast<float>(r);
+  void add(const Vector3f& p_P, float r) {
+    for (int k = 0; k < 3; ++k) center[k][size] = p_P[k];
+    radius[size++] = r;
   }
+  void add(const Vector3d& p_P, double r) { add(p_P.cast<float>(), static_cast<float>(r)); }
   SweptSide sideOf(int i) const { return static_cast<SweptSide>(side[i]); }
 };
 
