@@ -97,7 +97,7 @@ const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequ
     takeSpans(motion);
     takeSkipped(request);
     checkDue(motion, request, start);
-    measureSoon(motion);
+    if (request.max_time == 0.0 || secondsSince(start) < request.max_time) measureSoon(motion);
     schedule->settle(motion, checkers);
   } catch (...) {
     forget();
@@ -152,6 +152,20 @@ void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const C
   checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
 }
 
+/// @return false if the verdict was not found until then.
+bool Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion,
+                               const CycleRequest& request, PairMemory& pair_memory) {
+  if (Clock::now() >= until) return false;
+  pair_memory.deadline = until;
+  try {
+    check(due, motion, request, pair_memory);
+  } catch (const Cancelled&) {
+    checkCancelled();
+    return false;
+  }
+  return true;
+}
+
 void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start) {
   const std::vector<DuePair>& due = schedule->due();
   if (due.empty()) return;
@@ -192,7 +206,8 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion) {
   schedule->raiseSoon(clearance);
 }
 
-/// All threads take pairs from one queue, so that the most urgent pairs are done first.
+/// All threads take pairs from one queue, so that the most urgent pairs are done first. The first one takes as long as
+/// it needs, so that each is decided some time.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
   queue = schedule->due();
   const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
@@ -205,14 +220,11 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
     std::unique_ptr<PairMemory> taken = memory->take();
     for (std::size_t k = next++; k < queue.size(); k = next++) {
       const auto i = static_cast<std::size_t>(queue[k].pair);
-      const bool is_late = k > 0 && Clock::now() >= until;
-      if (is_late) {
+      if (!checkUntil(k > 0 ? until : Clock::time_point::max(), queue[k], motion, request, *taken))
         checkers[i].postpone(motion, *bodies, schedule->leftClearance(queue[k]), *taken, result.pairs[i]);
-      } else {
-        check(queue[k], motion, request, *taken);
-      }
       waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
     }
+    taken->deadline = Clock::time_point::max();
     memory->giveBack(std::move(taken));
   });
 }

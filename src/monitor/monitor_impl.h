@@ -26,6 +26,8 @@ struct Monitor::Impl {
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
   void measureSoon(const CycleMotion& motion);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
+  bool checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
+                  PairMemory& pair_memory);
   void summarise(std::size_t end);
   ErrorBound errorOf(int pair) const;
   void forget();

@@ -86,6 +86,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   result.error.chord += std::max(0.0, -std::max(clearance, apart));
   clearance_ = clearance;
   outside_ = false;
+  inside_.reset();
 }
 
 /// Lower bound of the distance of the bodies' balls over the whole span [m]; if negative, its amount bounds their
@@ -283,6 +284,7 @@ void PairChecker::setSurfaceError(double open_within, const ErrorBound& error, P
 
 /// Whether the triangles prove that the bodies stay apart. @param answer  set if not.
 bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
+  const CancelScope scope(memory_->deadline);
   answer = surfaces_->decide(motion_error_, memory_->separation);
   if (answer.state != SeparationState::kApart) {
     inside_.reset();

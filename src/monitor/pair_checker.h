@@ -6,6 +6,7 @@
 
 #include "contact_refinement.h"
 #include "pair_roles.h"
+#include "sdf_ccd/common/cancel.h"
 #include "surface_contacts.h"
 #include "surface_pair.h"
 
@@ -19,6 +20,7 @@ struct PairMemory {
   std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
   ContactRefinement::Memory refinement;
+  CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of a verdict by triangles
 };
 
 /// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
@@ -31,6 +33,7 @@ class PairChecker {
   /// cannot be followed: the pair is then NOT_CHECKED.
   /// @param bodies  must have the motion.
   /// @param memory  used by this call alone.
+  /// @throws Cancelled if the triangles give no verdict before PairMemory::deadline; contacts are then not computed.
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 

@@ -8,6 +8,7 @@
 #include "motion/time_at.h"
 #include "pair_bound.h"
 #include "query/surfaces/plane_separation.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -155,7 +156,9 @@ SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, Separation
   SeparationOptions options;
   options.margin = margin;
   options.resolution = resolution_;
+  const CancelPoint cancel;
   for (std::size_t step = 0; step < motion_.steps(); ++step) {
+    cancel.check();
     const double travel = motion_.bounds(step).travel;
     if (distance - travel > margin) {
       distance -= travel;

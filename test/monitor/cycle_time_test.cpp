@@ -1,8 +1,11 @@
 // Cycles that are ended by CycleRequest::max_time. Expected values: exact distances of balls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
+#include "oracle/shapes.h"
 
 namespace sdf_ccd {
 namespace {
@@ -223,6 +226,46 @@ TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
     EXPECT_LT(pair.error.chord, 0.06 + 4.0 * kError);
   }
   EXPECT_EQ(postponed, 2);
+}
+
+/// Two balls of many triangles that roll on each other, hardly apart, and two beads that are tested before them. The
+/// search for the balls' verdict ends with the cycle's time, and is the first one in the next cycle.
+TEST(CycleTimeOfTwo, ALongSearchEndsInTime) {
+  const auto scene = build({body("bead", Primitive(Sphere{0.01})), body("other", Primitive(Sphere{0.01})),
+                            body("a", meshShape(icosphere(0.2, 5))), body("b", meshShape(icosphere(0.2, 5)))},
+                           fine(0.008));
+  constexpr std::size_t kWaypoints = 40;
+  std::vector<Isometry3d> rolling;
+  for (std::size_t k = 0; k < kWaypoints; ++k) {
+    Isometry3d X = translation({0.4001, 0.0, 0.0});
+    X.rotate(Eigen::AngleAxisd(0.5 * double(k), Vector3d(1, 2, 3).normalized()));
+    rolling.push_back(X);
+  }
+  const CycleMotion motion =
+      cycle(1.0, {still(translation({0.0, 1.0, 0.0}), kWaypoints), still(translation({0.0, 1.01, 0.0}), kWaypoints),
+                  still(Isometry3d::Identity(), kWaypoints), rolling});
+  const auto balls = [](const CycleResult& result) { return result.pairs.back(); };
+  CycleRequest request = {};
+  request.wrenches = request.contacts = false;
+  double whole = 1e9, cut = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    Monitor monitor(scene, {});
+    const CycleResult& result = monitor.run(motion, request);
+    whole = std::min(whole, result.run_time);
+    EXPECT_EQ(balls(result).verdict, Verdict::kClear);
+  }
+  for (int i = 0; i < 3; ++i) {
+    CycleRequest limited = request;
+    limited.max_time = 0.1 * whole;
+    Monitor monitor(scene, {});
+    const CycleResult& result = monitor.run(motion, limited);
+    cut = std::min(cut, result.run_time);
+    EXPECT_TRUE(balls(result).postponed);
+    EXPECT_EQ(balls(result).verdict, Verdict::kUncertain);
+    EXPECT_GT(balls(result).error.total(), 0.4 - 0.4001);
+    EXPECT_EQ(balls(monitor.run(motion, limited)).verdict, Verdict::kClear);
+  }
+  EXPECT_LT(cut, 0.5 * whole);
 }
 
 /// A bead moves into a box while the pair is postponed; afterwards no surfaces cross.

@@ -37,8 +37,9 @@ struct CycleRequest {
   /// was found and without a depth; no field is queried.
   bool contacts = true;
 
-  /// Once this much of the cycle's time is used up [s], no further pair is tested, except that every cycle tests at
-  /// least one; 0: no limit. The remaining pairs are PairResult::postponed, and are tested first in the next cycle.
+  /// Once this much of the cycle's time is used up [s], no further pair is tested, and a search for a verdict among
+  /// triangles ends; 0: no limit. The first pair of every cycle is tested to its end, and so is a contact that has been
+  /// found. The remaining pairs are PairResult::postponed, and are tested first in the next cycle.
   double max_time = 0.0;
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
