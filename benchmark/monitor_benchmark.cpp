@@ -254,8 +254,10 @@ int main(int argc, char** argv) {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
         for (const std::string& argument : robotsOr(options, "demo=" SDF_CCD_DEMO_ARM)) {
           const Robot robot = loadRobot(argument);
-          for (const auto& [proximity, what] :
-               {std::pair{Proximity::kClear, "clear"}, {Proximity::kNear, "near"}, {Proximity::kContact, "contact"}}) {
+          for (const auto& [proximity, what] : {std::pair{Proximity::kClear, "clear"},
+                                                {Proximity::kNear, "near"},
+                                                {Proximity::kContact, "contact"},
+                                                {Proximity::kPersistent, "persistent"}}) {
             if (!isWanted(options.cases, what)) continue;
             const std::string name = robot.name + "/" + what;
             const Built built = build(robot, proximity, name, std::stod(options.errors.front()), 1e-3 * options.cycles);

@@ -140,9 +140,10 @@ double wantedDistance(Proximity proximity, int box, test::Random& random) {
 SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fcl, Proximity proximity,
                             std::uint64_t seed) {
   SceneDescription scene = robot.scene;
+  const bool all_pairs = proximity == Proximity::kPersistent;
   for (const PlannedPair& pair : touching(fcl, planScene(robot.scene).pairs, poses)) {
     const auto name = [&](int body) { return robot.scene.bodies[std::size_t(body)].name; };
-    scene.allowed.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
+    if (!all_pairs) scene.allowed.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
   }
   Placer placer(robot, poses, fcl);
   test::Random random(seed);
