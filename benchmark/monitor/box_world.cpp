@@ -137,13 +137,14 @@ double wantedDistance(Proximity proximity, int box, test::Random& random) {
   return test::uniform(random, 0.03, 0.2);
 }
 
-SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fcl, Proximity proximity,
-                            std::uint64_t seed) {
+/// @param touching  pairs of the robot's bodies that touch in the poses.
+SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fcl,
+                            const std::vector<PlannedPair>& touching, Proximity proximity, std::uint64_t seed) {
   SceneDescription scene = robot.scene;
-  const bool all_pairs = proximity == Proximity::kPersistent;
-  for (const PlannedPair& pair : touching(fcl, planScene(robot.scene).pairs, poses)) {
+  for (const PlannedPair& pair : touching) {
     const auto name = [&](int body) { return robot.scene.bodies[std::size_t(body)].name; };
-    if (!all_pairs) scene.allowed.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
+    if (proximity != Proximity::kPersistent)
+      scene.allowed.push_back({name(pair.body_a), name(pair.body_b), "touch along the motion"});
   }
   Placer placer(robot, poses, fcl);
   test::Random random(seed);
@@ -160,12 +161,13 @@ BoxWorld makeBoxWorld(const Robot& robot, Proximity proximity, double seconds, s
   FclScene fcl(robot.scene.bodies);
   const RobotMotion motion = calmestMotion(robot, fcl, seconds, seed);
   const Poses poses = posesOf(motion, robot.scene.bodies, seconds, kTimeStep);
-  return {boxesAbout(robot, poses, fcl, proximity, seed), motion};
+  const std::vector<PlannedPair> touch = touching(fcl, planScene(robot.scene).pairs, poses);
+  return {boxesAbout(robot, poses, fcl, touch, proximity, seed), motion, touch.size()};
 }
 
 SceneDescription boxesAbout(const Robot& robot, const Poses& poses, Proximity proximity, std::uint64_t seed) {
   FclScene fcl(robot.scene.bodies);
-  return boxesAbout(robot, poses, fcl, proximity, seed);
+  return boxesAbout(robot, poses, fcl, touching(fcl, planScene(robot.scene).pairs, poses), proximity, seed);
 }
 
 }  // namespace sdf_ccd::benchmark

@@ -11,6 +11,7 @@ namespace sdf_ccd::benchmark {
 struct BoxWorld {
   SceneDescription scene;  ///< the robot's bodies, then the boxes
   RobotMotion motion;
+  std::size_t touching;  ///< pairs of the robot's bodies that touch in it
 };
 
 /// Minimum distance of the boxes from the robot over its motion, measured with FCL at many poses.

@@ -9,6 +9,14 @@ namespace {
 
 constexpr double kStart = 1000.0;  // start time of the clock [s]
 
+/// What the nodelet requests while something subscribes to its contacts.
+CycleRequest asForContacts() {
+  CycleRequest request;
+  request.max_points = 20;  // the parameter's default
+  request.skipped_pairs = false;
+  return request;
+}
+
 std::shared_ptr<const RobotModel> shared(const RobotModel& robot) {
   return {std::shared_ptr<const RobotModel>(), &robot};
 }
@@ -46,7 +54,7 @@ void TfCycles::run() {
   monitor_seconds_ = 0.0;
   loop_->history().watchClock(now_);
   loop_->history().add(message_, false);
-  if (loop_->step(now_, {false, 0, false, false}) != TfTracker::Step::kCycle) return;
+  if (loop_->step(now_, asForContacts()) != TfTracker::Step::kCycle) return;
   monitor_seconds_ = loop_->result().run_time;
   setContactArray(*loop_, contacts_);
   ros::serialization::serializeMessage(contacts_);
