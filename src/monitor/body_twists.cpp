@@ -191,6 +191,7 @@ void BodyTwists::summariseGroups() {
       group.far = std::max(group.far, at(TwistRow::kFar, b));
       group.farthest = std::max(group.farthest, at(TwistRow::kFarthest, b));
       group.tilt = std::max(group.tilt, at(TwistRow::kTilt, b));
+      group.swing = std::max(group.swing, at(TwistRow::kTilt, b) * at(TwistRow::kFarthest, b));
       group.error = std::max(group.error, at(TwistRow::kError, b));
     }
     groups_[g] = group;

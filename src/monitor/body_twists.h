@@ -43,6 +43,7 @@ constexpr std::size_t twistGroup(std::size_t slot) {
 struct TwistGroup {
   bool rests = false;  ///< in the step, all with the same motion error; the others are valid only then
   float far = 0.0F, farthest = 0.0F, tilt = 0.0F, error = 0.0F;  ///< as TwistRow
+  float swing = 0.0F;                                            ///< of a body's tilt times its `farthest` [m]
 };
 
 struct TwistLanes;

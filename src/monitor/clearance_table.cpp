@@ -142,7 +142,8 @@ struct BesideResting {
     return (path + turn_noise * (far + group.far)) * kUpwards;
   }
   SDF_CCD_INLINE float poseErrorBeside(const TwistGroup& group) const {
-    return ((tilt + group.tilt) * (farthest + group.farthest) + (error + group.error)) * kUpwards;
+    return (tilt * (farthest + group.farthest) + group.tilt * farthest + group.swing + (error + group.error)) *
+           kUpwards;
   }
 };
 
@@ -195,7 +196,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     if (may_wait) {
       const BesideResting one(s.rows + block.rows_a);
       const float travel = one.travelBeside(group), error = one.poseErrorBeside(group);
-      const float path = (block.path + travel) * kUpwards;
+      const float path = travel > 0.0F ? (block.path + travel) * kUpwards : block.path;
       if (budgetAfter(block.least, path) > error + kSoon * travel) {  // false for NaN
         block.path = path;
         if (block.error + error > waiting.error) waiting = {block.error + error, block.worst, -1};
@@ -207,7 +208,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     const BodiesInRow b{s.rows + static_cast<std::size_t>(block.group) * kTwistBlock};
     const std::size_t at = i * kTwistLanes;
     Floats budget = load(s.budget + at);
-    const Ints has_pair = budget < kNoPair;
+    const Ints has_pair = ~(budget >= kNoPair);
     if (block.path > 0.0F) budget = has_pair ? budgetAfter(budget, zero + block.path) : budget;
     Floats travel = travelOf(a, b);
     if (add_spent) travel = (travel + load(s.spent + at)) * kUpwards;
@@ -282,12 +283,13 @@ void ClearanceTable::setMargin(int pair, double margin, double error, bool measu
   block.worst = static_cast<std::int32_t>(largest - error_.begin());
 }
 
-/// A slot's budget now: in its block's rest, it still is that before.
+/// A slot's budget now, rounded down: while its block waits, that before is stored.
 double ClearanceTable::budgetIn(std::size_t slot) const {
-  return double(budget_[slot]) - double(blocks_[blockOf(slot)].path);
+  const double path = blocks_[blockOf(slot)].path;
+  return path > 0.0 ? std::nextafter(budget_[slot] - path, -std::numeric_limits<double>::infinity()) : budget_[slot];
 }
 
-/// Ends the rest of a block.
+/// Ends the waiting of a block.
 void ClearanceTable::settle(PairBlock& block) {
   block.least = kUnknown;
   if (!(block.path > 0.0F)) return;

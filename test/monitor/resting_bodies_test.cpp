@@ -6,6 +6,7 @@
 #include "monitor/clearance_table.h"
 #include "monitor/clearance_table_case.h"
 #include "oracle/long_screw.h"
+#include "oracle/scene_case.h"
 
 // Pairs of moving bodies with groups of bodies that rest.
 
@@ -108,6 +109,75 @@ TEST(RestingBodies, BudgetsAreNoLargerThanWhatIsLeft) {
   EXPECT_GT(worst, 0.9);
 }
 
+/// Balls, of which the first moves.
+class OneMoves {
+ public:
+  OneMoves() : scene_(threeBalls()), bodies_(scene_), table(scene_, bodies_) {}
+
+  void cycle(double step) {
+    CycleMotion motion;
+    motion.times = {0.0, 1.0};
+    Isometry3d next = X_;
+    next.translation().x() += step;
+    motion.X_WB = {{X_, next}, {away_, away_}, {away_, away_}};
+    X_ = next;
+    bodies_.begin(motion, whole_);
+    table.finish(bodies_, due_);
+    bodies_.end(motion, whole_);
+  }
+
+ private:
+  static Scene threeBalls() {
+    Scene scene;
+    for (int i = 0; i < 3; ++i) {
+      Body body;
+      body.name = std::to_string(i);
+      body.ball.radius = 0.1;
+      body.is_world = i > 0;
+      scene.bodies.push_back(body);
+    }
+    scene.pairs = {{0, 1, true, true}, {0, 2, true, true}};
+    return scene;
+  }
+
+  Scene scene_;
+  std::vector<char> whole_ = {1, 1, 1};
+  Isometry3d X_ = Isometry3d::Identity(), away_ = Isometry3d(Eigen::Translation3d(0.0, 5.0, 0.0));
+  std::vector<DuePair> due_;
+  BodyTwists bodies_;
+
+ public:
+  ClearanceTable table;
+};
+
+/// Nothing is used up while nothing moves, also after something has.
+TEST(RestingBodies, ABudgetStaysWhileNothingMoves) {
+  OneMoves balls;
+  balls.cycle(0.0);
+  for (const int pair : {0, 1}) balls.table.set(pair, 1.0);
+  balls.cycle(0.0);
+  balls.cycle(0.1);
+  const double after = balls.table.clearance(0);
+  EXPECT_NEAR(after, 0.9, 1e-5);
+  for (int i = 0; i < 100000; ++i) balls.cycle(0.0);
+  EXPECT_EQ(balls.table.clearance(0), after);
+}
+
+/// Steps far below the rounding of the budget, after each of which another pair of the block is set.
+TEST(RestingBodies, TinyPathsAreUsedUp) {
+  OneMoves balls;
+  balls.cycle(0.0);
+  for (const int pair : {0, 1}) balls.table.set(pair, 1e6);
+  constexpr int kSteps = 10000;
+  constexpr double kStep = 5e-11;
+  for (int i = 0; i < kSteps; ++i) {
+    balls.cycle(0.0);
+    balls.cycle(kStep);
+    balls.table.set(1, 1e6);
+  }
+  EXPECT_GE(1e6 - balls.table.clearance(0), kSteps * kStep);
+}
+
 /// The error bound of pairs that are not due, also where their blocks are not scanned.
 TEST(RestingBodies, TheLargestErrorIsReported) {
   Random random(7);
@@ -150,6 +220,29 @@ TEST(RestingBodies, TheLargestErrorIsReported) {
       bodies.end(motion, whole);
       for (int i = 0; i < count && cycle == 0; ++i) table.set(i, kBudget);
     }
+  }
+}
+
+/// A half-space whose motion is vague strays in proportion to the distance of the other body, which is not that of a
+/// body far away that is stored beside it.
+TEST(RestingBodies, TheErrorIsThatOfAPair) {
+  constexpr double kVague = 1e-3, kStep = 1e-3;
+  const Isometry3d away = Isometry3d(Eigen::Translation3d(500.0, 0.0, 3.0));
+  std::vector<BodyDescription> bodies = {body("link", Primitive(Sphere{0.1})),
+                                         body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true),
+                                         body("far", Primitive(Sphere{0.1}), true)};
+  Monitor monitor(build(bodies), {});
+  Isometry3d X = Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0));
+  for (int i = 0; i < 4; ++i) {
+    const Isometry3d from = X;
+    X.translation().x() += kStep;
+    CycleMotion motion = cycle(0.1, {{from, X}, still(Isometry3d::Identity()), still(away)});
+    motion.motion_error = {0.0, kVague, kVague};
+    const CycleResult& result = monitor.run(motion, {});
+    double largest = 0.0;
+    for (const PairResult& pair : result.pairs) largest = std::max(largest, pair.error.total());
+    EXPECT_GE(result.error_bound, largest);
+    EXPECT_LE(result.error_bound, 1.001 * largest) << "cycle " << i;
   }
 }
 
