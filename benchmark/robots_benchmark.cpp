@@ -8,11 +8,15 @@
 #include <tuple>
 
 #include "common/seconds_since.h"
+#include "model/error_budget.h"
 #include "monitor/plan/scene_cost.h"
+#include "monitor/robot_motion.h"
+#include "oracle/random.h"
 #include "precision/error_summary.h"
 #include "results.h"
 #include "robot_case.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/robot/robot_scene.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {
@@ -21,19 +25,43 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// A cycle from one pose of the robot towards another, in which each joint moves by at most 0.02 rad or 2 cm.
-CycleMotion shortCycle(const Robot& robot, const Scene& scene, const JointPositions& from, const JointPositions& to) {
+/// @param error  of the motion of each of the robot's bodies [m].
+CycleMotion shortCycle(const Robot& robot, const JointPositions& from, const JointPositions& to, double error) {
   constexpr double kStep = 0.02;
   JointPositions next = from;
   for (auto& [name, position] : next) position += std::clamp(to.at(name) - position, -kStep, kStep);
-  const auto start = robot.model.forwardKinematics(from), end = robot.model.forwardKinematics(next);
+  const std::vector<BodyDescription>& bodies = robot.scene.bodies;
+  const auto start = posesAt(robot.model, from, bodies), end = posesAt(robot.model, next, bodies);
   CycleMotion motion;
   motion.times = {0.0, 1.0 / 30.0};
-  const std::vector<std::string>& links = robot.model.links();
-  for (const Body& body : scene.bodies) {
-    const std::size_t link = std::find(links.begin(), links.end(), body.frame) - links.begin();
-    motion.X_WB.push_back({start[link], end[link]});
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    motion.X_WB.push_back({start[b], end[b]});
+    motion.motion_error.push_back(bodies[b].is_world ? 0.0 : error);
   }
   return motion;
+}
+
+/// The robot among thirty boxes, a hand's breadth to half a metre from where its links' frames are in random poses.
+Robot amongBoxes(Robot robot) {
+  constexpr int kBoxes = 30;
+  test::Random random(2);
+  for (int i = 0; i < kBoxes; ++i) {
+    const auto X_RB = posesAt(robot.model, randomPositions(robot.model, random), robot.scene.bodies);
+    BodyDescription box;
+    box.name = "box" + std::to_string(i);
+    box.frame = robot.model.root();
+    box.is_world = true;
+    box.X_frame_B = test::pose(random, 3.0, 0.0);
+    box.X_frame_B.translation() =
+        X_RB[random() % X_RB.size()].translation() + test::uniform(random, 0.1, 0.5) * test::direction(random);
+    GeometryDescription& shape = box.geometry.emplace_back();
+    const auto half = [&] { return test::uniform(random, 0.03, 0.15); };
+    shape.shape = Primitive(Box{{half(), half(), half()}});
+    shape.source = "box";
+    robot.scene.bodies.push_back(box);
+  }
+  disableUnreachable(robot.model, robot.scene);
+  return robot;
 }
 
 struct Checked {
@@ -48,23 +76,25 @@ struct Checked {
 };
 
 /// Prepares a robot and checks random short cycles, the same ones in every call.
-Checked check(const Robot& robot, const BodyOptions& prepared, const MonitorOptions& monitor_options, int cycles) {
+/// @param motion_error  of each of the robot's bodies [m].
+Checked check(const Robot& robot, const BodyOptions& prepared, const MonitorOptions& monitor_options, int cycles,
+              double motion_error = 0.0) {
   Checked checked;
   const ScenePlan plan = planScene(robot.scene, planOptions(prepared));
   checked.expected = expectedCost(robot.scene, plan, prepared);
   const auto start = Clock::now();
   checked.scene = std::make_shared<const Scene>(buildScene(robot.scene, plan, prepared));
   checked.build_seconds = secondsSince(start);
-  const Scene& scene = *checked.scene;
-  std::fprintf(stderr, "%s", planTable(scene).c_str());
-  for (const BodyReport& report : scene.reports) checked.bytes += double(report.field_bytes + report.shell_bytes);
+  std::fprintf(stderr, "%s", planTable(*checked.scene).c_str());
+  for (const BodyReport& report : checked.scene->reports)
+    checked.bytes += double(report.field_bytes + report.shell_bytes);
 
   Monitor monitor(checked.scene, monitor_options);
   std::mt19937_64 random(1);
   for (int i = 0; i < cycles; ++i) {
     const JointPositions from = randomPositions(robot.model, random), to = randomPositions(robot.model, random);
     monitor.reset();
-    const CycleResult& result = monitor.run(shortCycle(robot, scene, from, to), {});
+    const CycleResult& result = monitor.run(shortCycle(robot, from, to, motion_error), {});
     checked.milliseconds.push_back(1e3 * result.run_time);
     checked.bound = std::max(checked.bound, result.error_bound);
     for (const PairResult& pair : result.pairs) {
@@ -89,7 +119,9 @@ void printCost(const std::string& name, Checked& checked) {
 void studyMaxError(const Robot& robot, double max_error, const StudyOptions& options) {
   MonitorOptions monitor_options;
   monitor_options.max_error = max_error;
-  Checked checked = check(robot, preparedAsMonitored(monitor_options), monitor_options, options.pairs);
+  // As large as the nodelet allows the error between two transforms to be.
+  const double motion_error = samplingTolerance(max_error, monitor_options.chords.tolerance);
+  Checked checked = check(robot, preparedAsMonitored(monitor_options), monitor_options, options.pairs, motion_error);
   char name[64];
   std::snprintf(name, sizeof name, "%s/%ldum", robot.name.c_str(), std::lround(1e6 * max_error));
   printCost(name, checked);
@@ -158,8 +190,11 @@ int main(int argc, char** argv) {
                   quick, [](const StudyOptions& options) {
                     for (const std::string& argument : options.robots) {
                       const Robot robot = loadRobot(argument);
-                      if (isWanted(options.cases, "max_error"))
-                        for (const std::string& error : options.errors) studyMaxError(robot, std::stod(error), options);
+                      if (isWanted(options.cases, "max_error")) {
+                        const Robot placed = amongBoxes(robot);
+                        for (const std::string& error : options.errors)
+                          studyMaxError(placed, std::stod(error), options);
+                      }
                       if (isWanted(options.cases, "accuracy")) studyAccuracy(robot, options);
                     }
                   });
