@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "model/name_pair.h"
+#include "model/overlap_reason.h"
 #include "robot/joint_sampler.h"
 #include "sdf_ccd/common/cancel.h"
 #include "state_verdicts.h"
@@ -16,14 +18,19 @@ namespace {
 
 constexpr std::size_t kNamed = 6;  // at most so many pairs are named in a warning
 
-/// "l_wheel - base (46.3 mm), r_wheel - base (46.3 mm) and 4 more".
-std::string listOf(const std::vector<OverlappingPair>& pairs, const Scene& scene) {
+/// "2 pairs of links, the deepest first: l_wheel - base (46.3 mm), mast - base (within 1 mm)".
+std::string listOf(std::vector<OverlappingPair> pairs, const Scene& scene) {
+  std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.touches, -a.depth) < std::pair(b.touches, -b.depth);
+  });
   std::vector<std::string> texts;
   for (const OverlappingPair& pair : pairs) {
     texts.push_back(pairName(scene, scene.pairs[static_cast<std::size_t>(pair.pair)]));
-    if (pair.depth > 0.0) texts.back() += " (" + lengthText(pair.depth) + ")";
+    const std::string depth = pair.touches ? "within 1 mm" : pair.depth > 0.0 ? lengthText(pair.depth) : "";
+    if (!depth.empty()) texts.back() += " (" + depth + ")";
   }
-  return firstOf(texts, kNamed);
+  return counted(pairs.size(), "pair") + " of links, " + (pairs.size() > 1 ? "the deepest first: " : "") +
+         firstOf(texts, kNamed);
 }
 
 constexpr double kTouch = 1e-3;  // how close surfaces are that joints hold together [m]
@@ -84,9 +91,10 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     if (at_rest[k].verdict == Verdict::kClear) continue;
     const PlannedPair& pair = scene.pairs[tested[k]];
     const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
-    found.push_back({static_cast<int>(tested[k]), at_rest[k].depth, false});
+    const bool touches = at_rest[k].verdict == Verdict::kUncertain;
+    found.push_back({static_cast<int>(tested[k]), touches ? 0.0 : at_rest[k].depth, touches, false});
     const bool adjacent = robot.adjacent(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
-    if (!adjacent && JointSampler::unboundedBetween(robot, a, b).empty()) open.push_back(tested[k]);
+    if (states > 0 && !adjacent && JointSampler::unboundedBetween(robot, a, b).empty()) open.push_back(tested[k]);
   }
 
   JointSampler sampler(robot, 1);
@@ -121,30 +129,33 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
   return found;
 }
 
-void leaveOutOverlapping(const RobotModel& robot, const std::vector<PairRule>& kept, Scene& scene) {
-  std::vector<OverlappingPair> always, at_rest;
-  std::vector<std::string> reasons(scene.pairs.size());
+void applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene) {
   constexpr std::size_t kStates = 200;
-  const std::string always_overlap = "overlap, or as neighbours come within 1 mm, at rest and in all of " +
-                                     std::to_string(kStates) + " random states, which is no proof for others";
-  for (const OverlappingPair& pair : overlappingPairs(robot, scene, kStates)) {
+  const std::string states = "in all of " + std::to_string(kStates) + " random states";
+  std::vector<OverlappingPair> left_out, checked, kept;
+  std::vector<std::string> reasons(scene.pairs.size());
+  for (const OverlappingPair& pair : overlappingPairs(robot, scene, rule.leave_out ? kStates : 0)) {
     const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair.pair)];
-    const bool stays = matchesAny(kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
-    if (stays) continue;
-    (pair.always ? always : at_rest).push_back(pair);
-    if (!pair.always) continue;
+    const bool stays = matchesAny(rule.kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
+    (stays ? kept : pair.always ? left_out : checked).push_back(pair);
+    if (stays || !pair.always) continue;
     std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
-    reason = always_overlap;
+    reason = pair.touches ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm " + states
+                          : overlapReason(pair.depth, "overlap or, as neighbours, come within 1 mm " + states);
+    reason += ", which is no proof for others";
   }
-  const auto list = [&](const std::vector<OverlappingPair>& pairs) {
-    return counted(pairs.size(), "pair") + " of links, " + listOf(pairs, scene);
-  };
-  if (!always.empty())
-    scene.warnings.push_back("left out, as they " + always_overlap + " (depth at rest): " + list(always) +
+  const std::string overlap = "overlap, or as neighbours come within 1 mm, ";
+  if (!left_out.empty())
+    scene.warnings.push_back("left out, as they " + overlap + "at rest and " + states +
+                             ", which is no proof for others (depth at rest): " + listOf(left_out, scene) +
                              "; list them in checked_pairs to check them");
-  if (!at_rest.empty())
-    scene.warnings.push_back("overlap where all joints are at rest, and are checked: " + list(at_rest) +
+  if (!checked.empty())
+    scene.warnings.push_back(overlap + "where all joints are at rest, and are checked: " + listOf(checked, scene) +
                              "; allowed_pairs leaves them out");
+  if (!kept.empty())
+    scene.warnings.push_back(overlap +
+                             "where all joints are at rest, and are checked as checked_pairs, or the SRDF's " +
+                             "enable_collisions, says: " + listOf(kept, scene));
   leaveOut(reasons, scene);
 }
 

@@ -59,14 +59,14 @@ void prepareRobot(const RobotFiles& files, const std::string& directory) {
   const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, base); };
   const RobotModel robot(readText(files.urdf), files.urdf);
   const Srdf srdf = files.srdf.empty() ? Srdf() : parseSrdf(readText(files.srdf), files.srdf);
-  std::vector<PairRule> kept;
-  for (const auto& [a, b] : srdf.enabled) kept.push_back({a, b});
+  OverlapRule overlaps;
+  for (const auto& [a, b] : srdf.enabled) overlaps.kept.push_back({a, b});
   Preparation preparation;
   preparation.options = optionsOf(files);
   preparation.scene = describeRobot(robot, srdf, loader, {}, preparation.warnings);
   preparation.build = [&](const ScenePlan& plan, const BodyOptions& options, const SceneProgress& progress) {
     Scene scene = buildScene(preparation.scene, plan, options, progress);
-    leaveOutOverlapping(robot, kept, scene);
+    applyOverlapRule(robot, overlaps, scene);
     return std::make_shared<const Scene>(std::move(scene));
   };
   preparation.parameters = parametersOf(files);

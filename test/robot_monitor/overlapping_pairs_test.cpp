@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -91,36 +92,86 @@ TEST(OverlappingPairs, ThoseAtRestAndWhetherAlways) {
   EXPECT_FALSE(found["base ghost"].always) << "nobody knows where it goes";
 }
 
+/// A depth in millimetres, after "name (" or "overlap at rest, "; negative without one.
+double depthAfter(const std::string& begin, const std::string& text) {
+  const std::size_t at = text.find(begin);
+  return at == std::string::npos ? -1.0 : std::stod(text.substr(at + begin.size()));
+}
+
 TEST(OverlappingPairs, AreLeftOutAndTold) {
   Cart cart;
   const std::size_t before = cart.scene.pairs.size();
   const std::size_t left_out = cart.scene.left_out.size();
-  leaveOutOverlapping(cart.robot, {}, cart.scene);
+  applyOverlapRule(cart.robot, {}, cart.scene);
   EXPECT_EQ(cart.scene.pairs.size(), before - 1);
   EXPECT_FALSE(cart.has("base wheel"));
   EXPECT_TRUE(cart.has("base arm"));
   ASSERT_EQ(cart.scene.left_out.size(), left_out + 1);
   EXPECT_EQ(cart.scene.left_out.back().what, "pair base - wheel");
-  EXPECT_EQ(
-      cart.scene.left_out.back().reason,
-      "overlap, or as neighbours come within 1 mm, at rest and in all of 200 random states, which is no proof for "
-      "others");
+  const std::string reason = cart.scene.left_out.back().reason;
+  const std::string others =
+      " mm, and overlap or, as neighbours, come within 1 mm in all of 200 random states, which "
+      "is no proof for others";
+  EXPECT_NEAR(depthAfter("overlap at rest, ", reason), 30.0, 2.0) << reason;
+  EXPECT_EQ(reason.substr(reason.find(" mm")), others);
   ASSERT_EQ(cart.scene.warnings.size(), 2u);
   EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30 mm)"), std::string::npos) << cart.scene.warnings[0];
   EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
   EXPECT_NE(planTable(cart.scene).find(cart.scene.warnings[0]), std::string::npos);
+  const std::string table = planTable(cart.scene);
+  EXPECT_NEAR(depthAfter("random states, which is no proof for others: base - wheel (", table), 30.0, 2.0) << table;
   std::size_t counted = 0;
   for (const BodyReport& report : cart.scene.reports) counted += report.pairs;
   EXPECT_EQ(counted, 2 * cart.scene.pairs.size());
   EXPECT_GT(cart.scene.contact_bound.total(), 0.0);
 }
 
-TEST(OverlappingPairs, StayIfThatIsWanted) {
-  Cart cart;
-  const std::size_t before = cart.scene.pairs.size();
-  leaveOutOverlapping(cart.robot, {{"wh*", "base"}}, cart.scene);
-  EXPECT_EQ(cart.scene.pairs.size(), before);
-  EXPECT_TRUE(cart.has("base wheel"));
+TEST(OverlappingPairs, ThoseThatStayAreToldToo) {
+  for (const OverlapRule& rule : {OverlapRule{true, {{"wh*", "base"}}}, OverlapRule{false, {}}}) {
+    Cart cart;
+    const std::size_t before = cart.scene.pairs.size();
+    applyOverlapRule(cart.robot, rule, cart.scene);
+    EXPECT_EQ(cart.scene.pairs.size(), before);
+    EXPECT_TRUE(cart.has("base wheel"));
+    std::string told;
+    for (const std::string& warning : cart.scene.warnings) told += warning + "\n";
+    EXPECT_NEAR(depthAfter("base - wheel (", told), 30.0, 2.0) << told;
+    EXPECT_NEAR(depthAfter("base - arm (", told), 50.0, 10.0) << told;
+    EXPECT_EQ(told.find("as checked_pairs") != std::string::npos, rule.leave_out) << told;
+  }
+}
+
+/// Seven wheels in a base, each 5 mm deeper than the one before, on casters so that they are not adjacent.
+TEST(OverlappingPairs, AllHaveTheirDepthInThePlanAndTheDeepestAreNamed) {
+  std::string urdf = "<robot name='truck'>" + box("base", "2.4 0.3 0.2");
+  for (int i = 0; i < 7; ++i) {
+    const std::string n = std::to_string(i);
+    urdf += box("caster" + n, "0.02 0.02 0.02") +
+            joint("base", "caster" + n, "continuous",
+                  std::to_string(0.3 * (i - 3)) + " 0 " + std::to_string(0.005 * i - 0.16), "0 0 1") +
+            "<link name='wheel" + n + "'><collision><geometry><sphere radius='0.07'/></geometry></collision></link>" +
+            joint("caster" + n, "wheel" + n, "continuous", "0 0 0");
+  }
+  const RobotModel robot(urdf + "</robot>");
+  std::vector<std::string> warnings;
+  const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+  Scene scene = buildScene(description, planScene(description), coarse());
+  applyOverlapRule(robot, {}, scene);
+  const std::string table = planTable(scene);
+  EXPECT_NE(table.find("  7 pairs, overlap at rest and overlap or"), std::string::npos) << table;
+  const std::string lines = table.substr(table.find("left out:"));
+  for (int i = 0; i < 7; ++i) {
+    const double depth = 10.0 + 5.0 * i;  // [mm]
+    const std::string pair = "base - wheel" + std::to_string(i);
+    EXPECT_NEAR(depthAfter(pair + " (", lines), depth, 0.5) << lines;
+    const auto left_out = std::find_if(scene.left_out.begin(), scene.left_out.end(),
+                                       [&](const LeftOut& entry) { return entry.what == "pair " + pair; });
+    ASSERT_NE(left_out, scene.left_out.end()) << pair;
+    EXPECT_NEAR(depthAfter("overlap at rest, ", left_out->reason), depth, 0.5) << left_out->reason;
+  }
+  ASSERT_EQ(scene.warnings.size(), 1U);
+  EXPECT_NE(scene.warnings[0].find("the deepest first: base - wheel6"), std::string::npos) << scene.warnings[0];
+  EXPECT_EQ(scene.warnings[0].find("wheel0"), std::string::npos) << scene.warnings[0];
 }
 
 /// Bodies of a robot between which are only links without shapes, as "a b", that stay.
@@ -129,7 +180,7 @@ std::set<std::string> checkedPairs(const std::string& urdf) {
   std::vector<std::string> warnings;
   const SceneDescription description = describeRobot(robot, {}, binWithoutTop, {}, warnings);
   Scene scene = buildScene(description, planScene(description), coarse());
-  leaveOutOverlapping(robot, {}, scene);
+  applyOverlapRule(robot, {}, scene);
   std::set<std::string> names;
   for (const PlannedPair& pair : scene.pairs)
     names.insert(scene.bodies[pair.body_a].name + " " + scene.bodies[pair.body_b].name);
@@ -174,7 +225,7 @@ TEST(OverlappingPairs, NeighboursInOpenMeshesStay) {
 
 TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {
   Cart cart(true);
-  leaveOutOverlapping(cart.robot, {}, cart.scene);
+  applyOverlapRule(cart.robot, {}, cart.scene);
   EXPECT_TRUE(cart.has("caster wheel")) << "they overlap always, but are checked by request";
   EXPECT_FALSE(cart.has("base wheel"));
 }
@@ -193,7 +244,12 @@ TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
     std::vector<std::string> warnings;
     const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
     Scene scene = buildScene(description, planScene(description), coarse());
-    leaveOutOverlapping(robot, {}, scene);
+    applyOverlapRule(robot, {}, scene);
+    EXPECT_EQ(scene.warnings.size(), 1U);
+    EXPECT_NE(scene.warnings.at(0).find("rail - car (within 1 mm)"), std::string::npos) << scene.warnings[0];
+    if (scene.pairs.empty()) {
+      EXPECT_EQ(scene.left_out.back().reason.find("come within 1 mm as neighbours at rest, and"), 0U);
+    }
     return scene.pairs.size();
   };
   EXPECT_EQ(pairsOf(0.7), 1U);  // the car's front reaches 1.1 m

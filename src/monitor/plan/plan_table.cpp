@@ -4,6 +4,7 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "model/overlap_reason.h"
 #include "monitor/no_pairs.h"
 #include "monitor/pair_bound.h"
 #include "scene_totals.h"
@@ -14,7 +15,8 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-constexpr std::size_t kNamedPairs = 4;  // at most so many examples are named per reason
+constexpr std::size_t kNamedPairs = 4;    // at most so many examples are named per reason
+constexpr std::size_t kNamedDepths = 30;  // where pairs have depths, which is what their reader looks for
 
 /// Number of characters, not bytes, of UTF-8.
 std::size_t width(const std::string& text) {
@@ -42,18 +44,28 @@ std::string aligned(const std::vector<Row>& rows, std::size_t left) {
 /// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a - b, c - d, ...". ASCII, for logs
 /// in any locale.
 std::string leftOutLines(const std::vector<LeftOut>& left_out) {
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
+  struct Group {
+    std::vector<std::string> names;
+    std::size_t most = kNamedPairs;
+  };
+  std::map<std::pair<std::string, std::string>, Group> groups;
   for (const LeftOut& item : left_out) {
     const std::size_t space = item.what.find(' ');
     const std::string kind = item.what.substr(0, space);
     const std::size_t name = item.what.compare(space, 4, " of ") == 0 ? space + 4 : space + 1;
-    groups[{kind, item.reason}].push_back(item.what.substr(std::min(name, item.what.size())));
+    const SharedReason reason = sharedReason(item.reason);
+    Group& group = groups[{kind, reason.text}];
+    group.names.push_back(item.what.substr(std::min(name, item.what.size())));
+    if (reason.depth.empty()) continue;
+    group.names.back() += " (" + reason.depth + ")";
+    group.most = kNamedDepths;
   }
   std::string text;
-  for (const auto& [group, names] : groups) {
-    text += "  " + counted(names.size(), group.first) + ", " + group.second + ": ";
-    for (std::size_t i = 0; i < std::min(names.size(), kNamedPairs); ++i) text += (i == 0 ? "" : ", ") + names[i];
-    text += names.size() > kNamedPairs ? ", ...\n" : "\n";
+  for (const auto& [kind, group] : groups) {
+    const auto& [names, most] = group;
+    text += "  " + counted(names.size(), kind.first) + ", " + kind.second + ": ";
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i == 0 ? "" : ", ") + names[i];
+    text += names.size() > most ? ", ...\n" : "\n";
   }
   return text;
 }

@@ -59,7 +59,7 @@ struct MonitorParameters {
   bool allow_http = false;  ///< whether meshes may be downloaded
   RobotSceneOptions robot;
   PairRules pairs;
-  bool leave_out_overlapping = true;  ///< see leaveOutOverlapping()
+  bool leave_out_overlapping = true;  ///< see OverlapRule
   std::vector<WorldObject> world;
   std::string world_file;                   ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "common/shown_text.h"
-#include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/fetch_http.h"
 #include "ros/world/world_bodies.h"
@@ -109,9 +108,8 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     if (pair.proved && !isProof(pair.reason) && matchesAny(parameters.pairs.checked, pair.body_a, pair.body_b))
       pair.reason = kRigidlyJoined;
   }
-  described.kept = parameters.pairs.checked;
-  for (const auto& [a, b] : srdf.enabled) described.kept.push_back({a, b});
-  described.leave_out_overlapping = parameters.leave_out_overlapping;
+  described.overlaps = {parameters.leave_out_overlapping, parameters.pairs.checked};
+  for (const auto& [a, b] : srdf.enabled) described.overlaps.kept.push_back({a, b});
   described.unreachable = unreachablePairs(*robot, described.scene.bodies, proved);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
@@ -129,7 +127,7 @@ std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, con
                                             const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
   Scene scene = buildScene(described.scene, plan, options, progress);
-  if (described.leave_out_overlapping) leaveOutOverlapping(*described.robot, described.kept, scene);
+  applyOverlapRule(*described.robot, described.overlaps, scene);
   return std::make_shared<const Scene>(std::move(scene));
 }
 

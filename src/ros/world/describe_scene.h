@@ -7,6 +7,7 @@
 
 #include "monitor/plan/scene_cost.h"
 #include "robot/unreachable_pairs.h"
+#include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/parameters.h"
 #include "ros/tf/robot_frames.h"
 
@@ -21,8 +22,7 @@ struct DescribedScene {
   std::string base_joint;                    ///< the SRDF's virtual joint of the root link; empty if there is none
   std::string fixed_frame;                   ///< without leading slash
   std::string tiles_begin;                   ///< prefix of the names of a live map's tiles; empty: there is no live map
-  std::vector<PairRule> kept;                ///< pairs that are checked even if they always overlap
-  bool leave_out_overlapping = true;         ///< see MonitorParameters
+  OverlapRule overlaps;                      ///< for pairs of links
   std::vector<UnreachablePair> unreachable;  ///< left out because of the URDF, also if a rule allows them to touch
   std::vector<std::string> warnings;
 
