@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include <tbb/task_arena.h>
+
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"
@@ -23,8 +25,8 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
-constexpr std::size_t kMotionsPerPiece = 16;
-constexpr double kLong = 0.05;  // freed memory is returned after answers that take longer [s]
+constexpr std::size_t kMotionsPerThread = 16;  // in one piece, so that all threads have work in each
+constexpr double kLong = 0.05;                 // freed memory is returned after answers that take longer [s]
 
 void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
   if (given <= limit) return;
@@ -208,7 +210,6 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   }
   CycleRequest wanted;
   wanted.max_points = max_points_;
-  wanted.refine = refine_;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (marker_publisher_ && marker_publisher_.getNumSubscribers() > 0)
@@ -252,9 +253,12 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   MotionsRequest wanted;
   wanted.first_only = !request.all;
   wanted.margin = request.margin;
+  std::size_t per_piece = 0;
+  arena_.run(
+      [&] { per_piece = kMotionsPerThread * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); });
   MotionNotes notes;
   double spent = 0.0;
-  for (std::size_t first = 0; first < count; first += kMotionsPerPiece) {
+  for (std::size_t first = 0; first < count; first += per_piece) {
     const Piece piece(*this, spent);
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
@@ -273,8 +277,8 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     };
     std::vector<MotionVerdict> verdicts;
     arena_.run([&] {
-      verdicts = sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(kMotionsPerPiece, count - first),
-                                       motionOf, wanted);
+      verdicts =
+          sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(per_piece, count - first), motionOf, wanted);
     });
     for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
   }
