@@ -11,6 +11,7 @@ QueryMotions::Request requestOf(Numbers& numbers) {
   const std::size_t what = numbers.byte();
   request.all = (what & 1) != 0;
   request.interpolation = static_cast<std::uint8_t>(numbers.below(4));
+  request.list_pairs = (what & 4) != 0;
   if (what & 2) request.margin = numbers.real();
   const QueryMotion::Request others = motionRequestOf(numbers);
   request.other_joints = others.other_joints;
@@ -31,6 +32,12 @@ void check(const QueryMotions::Request& request, const QueryMotions::Response& r
   require(response.verdicts.size() == count && response.error_bounds.size() == count, "a verdict for each motion");
   require(response.bodies_a.size() == count && response.bodies_b.size() == count && response.times.size() == count,
           "a place for each motion");
+  const std::size_t pairs = response.pair_motions.size();
+  require(response.pair_verdicts.size() == pairs && response.pairs_a.size() == pairs &&
+              response.pairs_b.size() == pairs && response.pair_times.size() == pairs &&
+              (request.list_pairs || pairs == 0),
+          "pairs are listed as a whole, if wanted");
+  for (const std::uint32_t motion : response.pair_motions) require(motion < count, "a pair is of a motion");
   for (const double bound : response.error_bounds) require(bound >= 0.0, "bounds are numbers, none is negative");
 }
 

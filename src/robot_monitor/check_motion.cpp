@@ -79,29 +79,94 @@ class MotionChecker {
     request_.skipped_pairs = false;
   }
 
+  /// Without MotionVerdict::pairs.
   MotionVerdict look(const PlannedMotion& motion) {
-    if (motion.waypoints.size() < 2) throw std::invalid_argument("check motions: a motion of less than two waypoints");
-    monitor_.reset();  // so that results do not depend on the previous motion
-    MotionVerdict found;
-    found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
-    if (!motion.unchecked.empty()) found = {Verdict::kNotChecked, 0.0, -1, motion.waypoints.front()};
-    const std::size_t end = motion.waypoints.size() - 1;
-    for (std::size_t done = 0; done < end;) {
-      const std::size_t last = std::min(done + kWaypointsPerPiece, end);
-      lookAt(motion, done, last, found);
-      if (wanted_.first_only && found.verdict != Verdict::kClear) break;
-      done = last;
+    const bool first_only = wanted_.first_only || wanted_.list_pairs;
+    MotionVerdict found = begin(motion);
+    forPieces(motion, request_, [&](double start, const CycleResult& result) {
+      const Verdict before = found.verdict;
+      add(result, found);
+      if (found.verdict > before) findPair(start, result, found);
+      return !first_only || found.verdict == Verdict::kClear;
+    });
+    return found;
+  }
+
+  /// With them.
+  MotionVerdict list(const PlannedMotion& motion) {
+    CycleRequest request = request_;
+    request.contacts = true;
+    request.refine = wanted_.refine;
+    MotionVerdict found = begin(motion);
+    std::vector<Touch> touches(monitor_.scene().pairs.size());
+    forPieces(motion, request, [&](double start, const CycleResult& result) {
+      add(result, found);
+      for (std::size_t i = 0; i < touches.size(); ++i) touches[i].add(start, result.pairs[i]);
+      return true;
+    });
+    for (const UncheckedPair& pair : motion.unchecked)
+      found.pairs.push_back({pair.body_a, pair.body_b, Verdict::kNotChecked, motion.waypoints.front()});
+    double earliest = kInfinity;
+    for (std::size_t i = 0; i < touches.size(); ++i) {
+      const Touch& touch = touches[i];
+      if (touch.verdict == Verdict::kClear) continue;
+      const PlannedPair& pair = monitor_.scene().pairs[i];
+      found.pairs.push_back({pair.body_a, pair.body_b, touch.verdict, touch.time()});
+      if (touch.verdict != found.verdict || !(touch.time() < earliest)) continue;
+      found.pair = static_cast<int>(i);
+      found.time = earliest = touch.time();
     }
+    std::stable_sort(found.pairs.begin(), found.pairs.end(),
+                     [](const PairVerdict& a, const PairVerdict& b) { return a.time < b.time; });
     return found;
   }
 
  private:
-  void lookAt(const PlannedMotion& motion, std::size_t first, std::size_t last, MotionVerdict& found) {
-    motion.piece(first, last, piece_);
-    const CycleResult& result = monitor_.run(piece_, request_);
+  /// Of one pair, over all pieces [s] from the motion's start.
+  struct Touch {
+    Verdict verdict = Verdict::kClear;
+    double first_contact = kInfinity, not_clear = kInfinity;
+
+    void add(double start, const PairResult& pair) {
+      if (pair.verdict == Verdict::kClear) return;
+      verdict = std::max(verdict, pair.verdict);
+      not_clear = std::min(not_clear, start);
+      if (!pair.intervals.empty()) first_contact = std::min(first_contact, start + pair.intervals.front().enter);
+    }
+    double time() const { return first_contact < kInfinity ? first_contact : not_clear; }
+  };
+
+  MotionVerdict begin(const PlannedMotion& motion) {
+    if (motion.waypoints.size() < 2) throw std::invalid_argument("check motions: a motion of less than two waypoints");
+    monitor_.reset();  // so that results do not depend on the previous motion
+    MotionVerdict found;
+    found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
+    if (!motion.unchecked.empty()) {
+      found.verdict = Verdict::kNotChecked;
+      found.time = motion.waypoints.front();
+    }
+    return found;
+  }
+
+  /// Calls use(start of the piece [s], result) for all pieces, until it returns false.
+  template <class Use>
+  void forPieces(const PlannedMotion& motion, const CycleRequest& request, const Use& use) {
+    const std::size_t end = motion.waypoints.size() - 1;
+    for (std::size_t first = 0; first < end;) {
+      const std::size_t last = std::min(first + kWaypointsPerPiece, end);
+      motion.piece(first, last, piece_);
+      if (!use(motion.waypoints[first], monitor_.run(piece_, request))) return;
+      first = last;
+    }
+  }
+
+  void add(const CycleResult& result, MotionVerdict& found) const {
     found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
-    if (result.verdict <= found.verdict) return;
-    found.verdict = result.verdict;
+    found.verdict = std::max(found.verdict, result.verdict);
+  }
+
+  /// The pair that has the result's verdict first.
+  static void findPair(double start, const CycleResult& result, MotionVerdict& found) {
     double earliest = kInfinity;
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
       const PairResult& pair = result.pairs[i];
@@ -109,7 +174,7 @@ class MotionChecker {
       if (pair.verdict != result.verdict || !(begin < earliest)) continue;
       earliest = begin;
       found.pair = static_cast<int>(i);
-      found.time = motion.waypoints[first] + begin;
+      found.time = start + begin;
     }
   }
 
@@ -135,8 +200,10 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
       if (!looker) looker = std::make_unique<MotionChecker>(scene, options, request);
       for (std::size_t i = first; i < last; ++i) {
         checkCancelled();
-        for (const double tolerance : request.tolerances) {
-          verdicts[i] = looker->look(withMargin(motionOf(i, tolerance), request.margin));
+        for (std::size_t k = 0; k < request.tolerances.size(); ++k) {
+          const bool lists = request.list_pairs && k + 1 == request.tolerances.size();
+          const PlannedMotion motion = withMargin(motionOf(i, request.tolerances[k]), request.margin);
+          verdicts[i] = lists ? looker->list(motion) : looker->look(motion);
           if (verdicts[i].verdict == Verdict::kClear) break;
         }
       }

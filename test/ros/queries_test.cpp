@@ -17,7 +17,7 @@ constexpr double kStart = 100.0;  // [s]
 class QueriesTest : public ::testing::Test {
  protected:
   QueriesTest() {
-    MonitorParameters parameters = parseParameters({}, "~");
+    MonitorParameters& parameters = parameters_;
     parameters.urdf = R"(<robot name="ball"><link name="base"/>
       <link name="ball"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
       <joint name="free" type="floating"><parent link="base"/><child link="ball"/></joint></robot>)";
@@ -36,6 +36,7 @@ class QueriesTest : public ::testing::Test {
     queries_ = std::make_unique<Queries>(loop_->world(), described_, parameters, loop_->history(), limits_);
   }
 
+  MonitorParameters parameters_ = parseParameters({}, "~");
   DescribedScene described_;
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<MonitorLoop> loop_;
@@ -74,6 +75,50 @@ TEST_F(QueriesTest, EndsSoonWithItsCaller) {
   const CancelScope scope(asked);
   QueryMotion::Response response;
   EXPECT_THROW(queries_->answer(heavyRequest(), response), Cancelled);
+}
+
+/// From x = 1 m the ball moves into the wall, or short of it, in more motions than are checked in one piece.
+TEST_F(QueriesTest, PairsOfManyMotionsAreListedWithTheirFirstContact) {
+  QueryMotions::Request request;
+  request.list_pairs = true;
+  request.motions.resize(100);
+  for (std::size_t i = 0; i < request.motions.size(); ++i) {
+    trajectory_msgs::MultiDOFJointTrajectory& poses = request.motions[i].multi_dof_joint_trajectory;
+    poses.joint_names = {"free"};
+    for (const double x : {1.0, i % 2 == 0 ? 0.0 : 0.5}) {
+      trajectory_msgs::MultiDOFJointTrajectoryPoint point;
+      point.time_from_start = ros::Duration(double(poses.points.size()));
+      point.transforms.resize(1);
+      point.transforms[0].translation.x = x;
+      point.transforms[0].rotation.w = 1.0;
+      poses.points.push_back(point);
+    }
+  }
+  const auto answer = [&](const QueryLimits& limits) {
+    Queries queries(loop_->world(), described_, parameters_, loop_->history(), limits);
+    QueryMotions::Response response;
+    queries.answer(request, response);
+    return response;
+  };
+  QueryMotions::Response response = answer({});
+  ASSERT_TRUE(response.success) << response.message;
+  ASSERT_EQ(response.pair_motions.size(), 50U);
+  for (std::size_t k = 0; k < 50; ++k) {
+    EXPECT_EQ(response.pair_motions[k], 2 * k);
+    EXPECT_EQ(response.pair_verdicts[k], QueryMotions::Response::CONTACT);
+    EXPECT_EQ(response.pairs_a[k], "ball");
+    EXPECT_EQ(response.pairs_b[k], "wall");
+    EXPECT_NEAR(response.pair_times[k].toSec(), 0.6, 1e-3) << "its surface, 0.1 m ahead, comes to x = 0.3 m";
+    EXPECT_EQ(response.times[2 * k], response.pair_times[k]);
+    EXPECT_EQ(response.verdicts[2 * k + 1], QueryMotions::Response::CLEAR);
+  }
+  QueryLimits few;
+  few.pairs = 49;
+  response = answer(few);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("listed pairs: at most 49 are allowed"), std::string::npos) << response.message;
+  request.list_pairs = false;
+  EXPECT_TRUE(answer(few).pair_motions.empty());
 }
 
 /// In the URDF the base is fixed in the world; an arm and a leaf turn on it, which are checked. tf has the base

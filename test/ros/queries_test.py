@@ -139,6 +139,15 @@ class QueriesTest(MonitorCase):
         self.assertEqual(answer.bodies_a[0], '')
         self.assertEqual(answer.times[0].to_sec(), -1.0)
         self.assertAlmostEqual(answer.times[1].to_sec(), PLATE - RADIUS, delta=0.05)
+        self.assertEqual(list(answer.pair_motions), [])
+        request.list_pairs = True
+        answer = query(request)
+        self.assertEqual(list(answer.pair_motions), list(range(1, 40, 2)))
+        self.assertEqual(list(bytearray(answer.pair_verdicts)), [QueryMotionResponse.CONTACT] * 20)
+        self.assertEqual({answer.pairs_a[0], answer.pairs_b[0]}, {'ball', 'plate'})
+        self.assertAlmostEqual(answer.pair_times[0].to_sec(), PLATE - RADIUS, delta=0.003)
+        self.assertEqual(answer.times[1], answer.pair_times[0])
+        request.list_pairs = False
         request.margin = 0.2
         self.assertEqual(list(bytearray(query(request).verdicts))[0], QueryMotionResponse.UNCERTAIN)
         request.motions[3].joint_trajectory.points[1].positions = [5.0]

@@ -51,9 +51,23 @@ struct MotionsRequest {
   /// less deep.
   double margin = 0.0;
 
+  /// Whether MotionVerdict::pairs are wanted. Each motion that is not CLEAR is then checked as a whole, as by
+  /// checkMotion(), whatever first_only says; only the finest check, and only of these motions, costs more.
+  bool list_pairs = false;
+  Refinement refine = Refinement::kNone;  ///< of the listed pairs' contacts
+
   /// Maximum deviations of a motion's samples [m], coarse first: motions that are not CLEAR are checked again with the
   /// next one. Most of a planner's edges are far from everything, and a coarse check takes a fraction of a fine one.
   std::vector<double> tolerances = {0.01, 1e-4};
+};
+
+/// A pair that is not CLEAR over a motion.
+struct PairVerdict {
+  int body_a = -1, body_b = -1;  ///< in Scene::bodies
+  Verdict verdict = Verdict::kNotChecked;
+  /// The begin of its first contact, as in checkMotion(); without a contact, of the first part of the motion that is
+  /// not CLEAR [s] from the start.
+  double time = 0.0;
 };
 
 /// The verdict about one of many motions.
@@ -62,7 +76,8 @@ struct MotionVerdict {
   double error_bound = 0.0;  ///< largest of the checked pairs, without the margin [m]
   int pair = -1;             ///< in Scene::pairs: the first one with the verdict; −1 if that is CLEAR
   double time = -1.0;        ///< of the contact, or else the begin of the part of the motion with the verdict [s];
-                             ///< −1 if CLEAR
+                             ///< −1 if CLEAR. The first such time of all with MotionsRequest::list_pairs
+  std::vector<PairVerdict> pairs;  ///< all that are not CLEAR, by their times, if MotionsRequest::list_pairs
 };
 
 /// Checks motions on all cores, independently. checkMotion() gives the full result of one that is not CLEAR.

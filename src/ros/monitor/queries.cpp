@@ -71,6 +71,14 @@ void addVerdict(const MotionVerdict& verdict, const Scene& scene, QueryMotions::
   response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
   response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
   response.times.push_back(ros::Duration(verdict.time));
+  const auto motion = static_cast<std::uint32_t>(response.verdicts.size() - 1);
+  for (const PairVerdict& pair : verdict.pairs) {
+    response.pair_motions.push_back(motion);
+    response.pair_verdicts.push_back(static_cast<std::uint8_t>(pair.verdict));
+    response.pairs_a.push_back(scene.bodies[pair.body_a].name);
+    response.pairs_b.push_back(scene.bodies[pair.body_b].name);
+    response.pair_times.push_back(ros::Duration(pair.time));
+  }
 }
 
 /// Notes on several motions: each text once, with the first motion that it is about. Threads may add at once.
@@ -210,6 +218,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   }
   CycleRequest wanted;
   wanted.max_points = max_points_;
+  wanted.refine = refine_;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (marker_publisher_ && marker_publisher_.getNumSubscribers() > 0)
@@ -253,6 +262,8 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   MotionsRequest wanted;
   wanted.first_only = !request.all;
   wanted.margin = request.margin;
+  wanted.list_pairs = request.list_pairs;
+  wanted.refine = refine_;
   std::size_t per_piece = 0;
   arena_.run(
       [&] { per_piece = kMotionsPerThread * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); });
@@ -281,6 +292,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
           sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(per_piece, count - first), motionOf, wanted);
     });
     for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
+    requireAtMost(limits_.pairs, response.pair_motions.size(), "listed pairs");
   }
   response.message = notes.text();
 }

@@ -23,6 +23,7 @@ struct QueryLimits {
   std::size_t waypoints = 2000;  ///< of all trajectories of a motion
   std::size_t motions = 2000;    ///< of query_motions
   std::size_t points = 20000;    ///< of query_points, or of all motions of query_motions
+  std::size_t pairs = 100000;    ///< listed by query_motions
   double seconds = 2.0;          ///< of computing; the answer follows within milliseconds
   int queries = 4;               ///< at a time
 };
