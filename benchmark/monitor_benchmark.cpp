@@ -56,10 +56,12 @@ CycleRequest withContacts(bool wrenches, Refinement refine) {
 void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const std::string& name) {
   system.reset();
   std::vector<double> errors;
+  double refined = 0.0;
   for (std::size_t i = 0; i < waypoints.cycles(); ++i) {
     system.take(waypoints.X_WB[i], waypoints.X_WB[i + 1]);
     for (const PairResult& pair : system.run().pairs) {
       if (pair.verdict != Verdict::kContact || pair.skipped || pair.intervals.empty()) continue;
+      refined += pair.first_touch.has_value();
       errors.push_back(pair.first_touch ? pair.deepest.depth_error : pair.contact_error.total());
     }
   }
@@ -71,6 +73,7 @@ void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const s
   };
   row("depth_error_median", 0.5);
   row("depth_error_p99", 0.99);
+  print({"monitor", name, system.name(), "refined", refined / double(errors.size()), "of contacts", 1});
 }
 
 /// Counts of verdicts over all cycles, and of those that FCL contradicts.

@@ -41,4 +41,17 @@ def transforms(results):
     return ['case', 'transforms a message', 'from tf to the message, us', 'beside the monitor, us'], rows
 
 
-TABLES = {'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_verdicts': verdicts}
+def depths(results):
+    """Error bounds of depths, per contact and cycle."""
+    rows = []
+    for case in results.cases('monitor'):
+        def bounds(system):
+            values = [results.get('monitor', case, system, 'depth_error_' + name) for name in ('median', 'p99')]
+            return '-' if None in values else ' / '.join(map(number, values))
+        refined = results.get('monitor', case, 'sdf_ccd_deepest', 'refined')
+        if refined is not None:
+            rows.append([case, bounds('sdf_ccd_wrench'), bounds('sdf_ccd_deepest'), number(100 * refined)])
+    return ['case', 'by fields, mm', 'refined, mm', 'contacts that can be refined, %'], rows
+
+
+TABLES = {'monitor_depths': depths, 'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_verdicts': verdicts}
