@@ -1,12 +1,12 @@
 #include "surface_pair.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "common/infinity.h"
 #include "geometry/trees/triangle_tree.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
+#include "pose_rounding.h"
 #include "query/surfaces/plane_separation.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -190,7 +190,7 @@ SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, Separation
 
 /// Whether a part of the body stays below the plane all the time.
 bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
-  const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  const double rounding = kTimeRounding * motion_.reach();
   for (std::size_t step = 0; step < motion_.steps(); ++step)
     if (!isBelow(motion_.motion(step), 0.0, 1.0, margin + rounding, memory)) return false;
   return true;
@@ -231,8 +231,7 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step, d
 Separation SurfacePair::during(std::size_t step, double start, double end, double motion_error,
                                SeparationMemory& memory) {
   SeparationOptions options;
-  // Poses within a step differ from the step's own by rounding.
-  options.margin = motion_error + deviation_ + 64.0 * std::numeric_limits<double>::epsilon() * motion_.reach();
+  options.margin = motion_error + deviation_ + kTimeRounding * motion_.reach();
   options.resolution = resolution_;
   const TwoBodyMotion whole = motion_.motion(step);
   const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));

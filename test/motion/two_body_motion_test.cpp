@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
+#include <utility>
 
 #include "motion/chain_derivatives.h"
 #include "motion/chords.h"
+#include "oracle/long_screw.h"
 #include "oracle/random.h"
 
 namespace sdf_ccd {
@@ -219,6 +223,52 @@ TEST(ChainDerivatives, OneJointIsBoundedTightly) {
   EXPECT_DOUBLE_EQ(bounds.speed(), 0.5);
   EXPECT_DOUBLE_EQ(bounds.acceleration(), 0.25);
   EXPECT_DOUBLE_EQ(bounds.jerk(), 0.125);
+}
+
+/// A point of P in F's frame at any time, also of a part of the motion that starts and ends at poses of the whole,
+/// against long double. What callers allow for (pose_rounding.h): 64 ε
+/// of the distance from F's origin, and 16 ε of the coordinates of both origins and of the point for each body.
+TEST(TwoBodyMotion, PosesAreOffByNoMoreThanTheirRounding) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  Random random(11);
+  double worst = 0.0;
+  for (int i = 0; i < 40000; ++i) {
+    const double away = std::pow(10.0, test::uniform(random, -3.0, 5.0)),
+                 most = std::pow(10.0, test::uniform(random, -9.0, 0.49));
+    const double apart = std::pow(10.0, test::uniform(random, -3.0, 1.0));
+    const Vector3d place = away * test::direction(random);
+    const auto screw = [&] {
+      Isometry3d start = test::pose(random, 3.0, apart);
+      start.translation() += place;
+      Isometry3d end = start;
+      end.linear() = (Eigen::AngleAxisd(test::uniform(random, 0.0, most), test::direction(random)).toRotationMatrix() *
+                      start.linear())
+                         .eval();
+      end.translation() += std::min(apart, most) * test::direction(random);
+      return std::pair{start, end};
+    };
+    const auto [F_start, F_end] = screw();
+    const auto [P_start, P_end] = screw();
+    const ScrewMotion F(F_start, F_end), P(P_start, P_end);
+    const test::LongScrew long_F(F_start, F_end), long_P(P_start, P_end);
+    const Vector3d p = apart * test::direction(random);
+    const double from = test::uniform(random, 0.0, 1.0), to = test::uniform(random, from, 1.0);
+    const ScrewMotion part_F(F.pose(from), F.pose(to)), part_P(P.pose(from), P.pose(to));
+    const double s = i % 7 == 0 ? 1.0 : test::uniform(random, 0.0, 1.0);
+    const auto errorOf = [&](const ScrewMotion& of_f, const ScrewMotion& of_p, double at, test::Real time) {
+      const TwoBodyMotion motion{0.0, 1.0, of_f, of_p, 0.0};
+      const Vector3d p_F = motion.X_FP(at) * p;
+      const test::LongPose X_WF = long_F.pose(time), X_WP = long_P.pose(time);
+      const test::Vector3l exact = X_WF.R.transpose() * (X_WP * p.cast<test::Real>() - X_WF.p);
+      const double size = F_start.translation().norm() + P_start.translation().norm() + p.norm();
+      const double allowed = 64.0 * kEpsilon * p_F.norm() + 16.0 * kEpsilon * (size + p_F.norm());
+      worst = std::max(worst, double((p_F.cast<test::Real>() - exact).norm()) / allowed);
+    };
+    errorOf(F, P, s, s);
+    errorOf(part_F, part_P, s, test::Real(from) + test::Real(s) * (test::Real(to) - test::Real(from)));
+  }
+  EXPECT_LT(worst, 1.0);
+  EXPECT_GT(worst, 0.01);  // the margin is not a guess
 }
 
 }  // namespace
