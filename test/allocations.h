@@ -7,10 +7,12 @@
 #include <cstdlib>
 #include <new>
 
-/// Counts what a test program allocates, whoever does. For one source of each program.
+#include "thread_allocations.h"
+
+/// The memory that a test program holds through operator new. For one source of each program.
 namespace sdf_ccd::test {
 
-inline std::atomic<long> allocations{0}, held{0}, most_held{0};
+inline std::atomic<long> held{0}, most_held{0};
 
 inline void hold(long bytes) {
   const long now = held += bytes;
@@ -20,7 +22,6 @@ inline void hold(long bytes) {
 }  // namespace sdf_ccd::test
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++sdf_ccd::test::allocations;
   void* const memory = std::malloc(size ? size : 1);
   if (memory) sdf_ccd::test::hold(static_cast<long>(malloc_usable_size(memory)));
   return memory;
@@ -32,7 +33,6 @@ void* operator new(std::size_t size) {
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto side = static_cast<std::size_t>(alignment);
-  ++sdf_ccd::test::allocations;
   void* const memory = std::aligned_alloc(side, (size + side - 1) / side * side);
   if (!memory) throw std::bad_alloc();
   sdf_ccd::test::hold(static_cast<long>(malloc_usable_size(memory)));
@@ -60,9 +60,9 @@ template <typename Round>
 long steadyAllocations(const Round& round) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   for (int i = 0; i < 3; ++i) round();
-  const long before = allocations;
+  const ThreadAllocations allocations;
   round();
-  return allocations - before;
+  return allocations.count();
 }
 
 }  // namespace sdf_ccd::test

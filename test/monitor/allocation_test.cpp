@@ -129,10 +129,13 @@ TEST(Allocation, NoneWhileAChangeIsTakenOver) {
   snapshot = editor.next(description);
   const CycleMotion likely = motion();
   const auto change = monitor.prepare(snapshot->scene, &likely);
-  const long before = allocations, held_before = held;
-  monitor.adopt(*change);
-  EXPECT_EQ(allocations, before);
-  EXPECT_EQ(held, held_before);
+  {
+    const ThreadAllocations allocations;
+    const long held_before = held;
+    monitor.adopt(*change);
+    EXPECT_EQ(allocations.count(), 0);
+    EXPECT_EQ(held, held_before);
+  }
   EXPECT_LT(run(), 40) << "what was known is not known any more";
 }
 

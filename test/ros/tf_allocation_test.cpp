@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "allocations.h"
+#include "oracle/files.h"
 #include "oracle/scene_case.h"
 #include "ros/described_world.h"
 #include "ros/messages/message_pool.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/cycle_snapshot.h"
+#include "ros/monitor/health_watch.h"
 #include "ros/monitor/monitor_loop.h"
+#include "ros/monitor/torque_output.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd {
@@ -76,13 +82,100 @@ class Arm {
   int cycles_[4] = {0, 0, 0, 0};
 };
 
+/// A gripper of meshes whose sliding finger is pressed on a wall. Out of its reach, as long as the finger keeps to
+/// its limits, is a ball.
+class Gripper {
+ public:
+  Gripper() {
+    MonitorParameters parameters = parseParameters({}, "~");
+    parameters.urdf = test::readText(std::string(SDF_CCD_SOURCE_DIR) + "/test/ros/gripper.urdf");
+    parameters.scene.cache_directory.clear();
+    parameters.scene.shell.spacing = 0.004;
+    parameters.scene.exact_depths = true;
+    parameters.world = {object("wall", Box{{0.01, 0.3, 0.05}}, 0.146), object("ball", Sphere{0.05}, 1.0)};
+    described_ = describeScene(
+        parameters, makeResourceLoader([](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); }, "", false));
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
+    const auto scene = buildDescribed(described_, plan, parameters.scene, {});
+    loop_ = std::make_unique<MonitorLoop>(scene, described_, parameters);
+    health_.recordScene(*scene, described_, parameters);
+    torques_ = std::make_unique<TorqueOutput>(described_);
+    std::vector<int> links = torques_->linksOf(*scene);
+    torques_->swapLinks(links);
+  }
+
+  const DescribedScene& described() const { return described_; }
+
+  /// One second of motion that ends where it begins, and all that the thread of the cycles does about it.
+  void move() {
+    for (int i = 0; i < 100; ++i, ++now_) {
+      const ros::Time now = ros::Time(100.0) + ros::Duration(kPeriod * now_);
+      const double swing = std::sin(2.0 * M_PI * i / 100.0);
+      sent_.transforms[0].transform.rotation.w = std::cos(0.005 * swing);
+      sent_.transforms[0].transform.rotation.z = std::sin(0.005 * swing);
+      sent_.transforms[1].transform.translation.y = 0.01 * swing;
+      for (geometry_msgs::TransformStamped& transform : sent_.transforms) transform.header.stamp = now;
+      loop_->history().watchClock(now);
+      loop_->history().add(sent_, false);
+      if (loop_->step(now, request()) == TfTracker::Step::kCycle) report(now);
+    }
+  }
+
+  int contacts() const { return contacts_; }
+  int measuredTorques() const { return measured_torques_; }
+
+ private:
+  static WorldObject object(const std::string& name, const Primitive& shape, double x) {
+    WorldObject object;
+    object.name = name;
+    object.frame = "base";
+    object.shapes = {{shape}};
+    object.X_frame_B.translation().x() = x;
+    return object;
+  }
+
+  static CycleRequest request() {
+    CycleRequest request{true, 20};
+    request.wrenches = request.skipped_pairs = true;
+    request.refine = Refinement::kDeepest;
+    return request;
+  }
+
+  void report(const ros::Time& now) {
+    const boost::shared_ptr<ContactArray> contacts = contacts_pool_.take();
+    setContactArray(*loop_, *contacts);
+    const boost::shared_ptr<MonitorState> state = states_.take();
+    setMonitorState(*loop_, now, *state);
+    for (int body = 0; body < 2; ++body) setWrenchStamped(*loop_, body, wrench_);
+    const boost::shared_ptr<sensor_msgs::JointState> torques = torques_->toMessage(*loop_);
+    snapshot_.take(*loop_);
+    health_.recordCycle(*loop_, *state, now);
+    contacts_ += contacts->verdict == ContactArray::CONTACT && !contacts->pairs.empty();
+    measured_torques_ += std::abs(torques->effort.at(0)) > 1e-3;
+  }
+
+  DescribedScene described_;
+  std::unique_ptr<MonitorLoop> loop_;
+  std::unique_ptr<TorqueOutput> torques_;
+  HealthWatch health_;
+  CycleSnapshot snapshot_;
+  tf2_msgs::TFMessage sent_ =
+      test::message({stampedTransform("base", "palm", 0.0, 0.0), stampedTransform("palm", "finger", 0.0, 0.1)});
+  MessagePool<ContactArray> contacts_pool_;
+  MessagePool<MonitorState> states_;
+  geometry_msgs::WrenchStamped wrench_;
+  long now_ = 0;
+  int contacts_ = 0, measured_torques_ = 0;
+};
+
 /// Allocations during the last second, after more seconds than the history keeps.
-long steadyAllocations(Arm& arm) {
+template <class Robot>
+long steadyAllocations(Robot& robot) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  for (int second = 0; second < 14; ++second) arm.move();
-  const long before = test::allocations;
-  arm.move();
-  return test::allocations - before;
+  for (int second = 0; second < 14; ++second) robot.move();
+  const test::ThreadAllocations allocations;
+  robot.move();
+  return allocations.count();
 }
 
 TEST(TfAllocation, NoneFromTransformsToTheMessageWhileAllIsClear) {
@@ -95,6 +188,16 @@ TEST(TfAllocation, NoneFromTransformsToTheMessageOfContactsLikeTheLast) {
   Arm arm(0.015);
   EXPECT_EQ(steadyAllocations(arm), 0);
   EXPECT_GT(arm.cycles(ContactArray::CONTACT), 1400);
+}
+
+/// With wrenches, torques, deepest points and what is drawn, while the limits of the finger's joint are watched.
+TEST(TfAllocation, NoneForAGripperInContactWithASlidingFinger) {
+  Gripper gripper;
+  const std::vector<UnreachablePair>& watched = gripper.described().unreachable;
+  ASSERT_TRUE(std::any_of(watched.begin(), watched.end(), [](const auto& pair) { return !pair.slides.empty(); }));
+  EXPECT_EQ(steadyAllocations(gripper), 0);
+  EXPECT_GT(gripper.contacts(), 1400);
+  EXPECT_GT(gripper.measuredTorques(), 1000);
 }
 
 }  // namespace

@@ -93,7 +93,8 @@ std::string ReachGuard::problem(std::size_t index) {
   }
   const TimePart& part = parts_[child];
   times_ = {secondsBetween(window_.origin(), part.from), secondsBetween(window_.origin(), part.until)};
-  if (part.from < part.until) window_.addRecordedTimes({parent, child}, times_, recorded_);
+  frames_ = {parent, child};
+  if (part.from < part.until) window_.addRecordedTimes(frames_, times_, recorded_);
   recorded_.clear();
   for (const double time : times_) {
     const Isometry3d X_PC = relativePose(window_.pose(parent, time), window_.pose(child, time));

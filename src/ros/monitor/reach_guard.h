@@ -46,7 +46,8 @@ class ReachGuard {
   std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
   TfWindow window_;
-  std::vector<double> times_, recorded_;  // of one joint
+  std::vector<std::size_t> frames_;       // of one joint, in window_
+  std::vector<double> times_, recorded_;  // of that joint
 };
 
 }  // namespace sdf_ccd
