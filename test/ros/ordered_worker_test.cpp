@@ -29,6 +29,28 @@ TEST(OrderedWorker, WorksOnEveryItemInOrderWhicheverSideIsTheSlower) {
   }
 }
 
+/// As pictures are drawn: what comes while others wait is left out.
+TEST(OrderedWorker, SlowWorkNeedNotBeWaitedFor) {
+  std::mutex slow;
+  std::vector<int> seen;
+  std::unique_lock<std::mutex> until_then(slow);
+  {
+    OrderedWorker<int> worker(4, [&](int& item) {
+      const std::lock_guard<std::mutex> lock(slow);
+      seen.push_back(item);
+    });
+    for (int i = 0; i < 100; ++i) {
+      int* const item = worker.tryNext();
+      ASSERT_EQ(item != nullptr, i < 4) << i;
+      if (!item) continue;
+      *item = i;
+      worker.handOver();
+    }
+    until_then.unlock();
+  }
+  EXPECT_EQ(seen, (std::vector<int>{0, 1, 2, 3}));
+}
+
 TEST(OrderedWorker, ItemsKeepTheirMemory) {
   OrderedWorker<std::vector<int>> worker(2, [](std::vector<int>& item) { item.clear(); });
   for (int i = 0; i < 10; ++i) {

@@ -1,5 +1,7 @@
 #include "ros/monitor/collision_monitor_nodelet.h"
 
+#include <pthread.h>
+
 #include <ros/package.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -77,6 +79,7 @@ void CollisionMonitor::setUpThenCycle() {
   TriggerOptions trigger = parameters_.trigger;
   if (!failure.empty()) trigger = {TriggerKind::kTimer, {}, kIdlePeriod, 0.0};
   trigger_.setOptions(trigger);
+  pthread_setname_np(pthread_self(), "sdf_ccd cycles");  // only now: threads that it has started keep their names
   while (trigger_.wait([this] { attempt([this] { betweenCycles(); }); }) && ros::ok()) {
     std::string problem = failure;
     if (problem.empty()) problem = attempt([this] { cycle(); });

@@ -6,7 +6,8 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kRateTolerance = 0.1;
-constexpr int kRateWindow = 10;  // number of updates, which come once a second
+constexpr int kRateWindow = 10;               // number of updates, which come once a second
+const ros::WallDuration kReportPeriod(0.05);  // between tests whether a second has passed
 
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
@@ -18,7 +19,9 @@ void addLines(const std::string& key, const std::vector<std::string>& lines, Dia
 }  // namespace
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name)
-    : updater_(node, private_node, name), rate_({&least_rate_, &largest_rate_, kRateTolerance, kRateWindow}, "rate") {
+    : updater_(node, private_node, name),
+      rate_({&least_rate_, &largest_rate_, kRateTolerance, kRateWindow}, "rate"),
+      worker_(2, [this](const Report& report) { publish(report); }) {
   updater_.setHardwareID("none");
   updater_.add("cycles", [this](DiagnosticStatusWrapper& status) { cycles(status); });
   updater_.add("transforms", [this](DiagnosticStatusWrapper& status) { transforms(status); });
@@ -26,14 +29,27 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
 }
 
 void Diagnostics::update(const MonitorHealth& health, bool at_once) {
-  health_ = health;
+  at_once_ |= at_once;
+  const ros::WallTime now = ros::WallTime::now();
+  if (!at_once_ && now - reported_at_ < kReportPeriod) return;
+  Report* const report = worker_.tryNext();
+  if (!report) return;  // the next call reports
+  report->health = health;
+  report->at_once = at_once_;
+  at_once_ = false;
+  reported_at_ = now;
+  worker_.handOver();
+}
+
+void Diagnostics::publish(const Report& report) {
+  health_ = report.health;
   // The rate is measured on the ROS clock, which a player may run at any speed.
   const bool is_real = !ros::Time::isSimTime();
-  least_rate_ = is_real && health.is_timed ? health.wanted_rate : 0.0;
-  largest_rate_ = is_real ? health.wanted_rate : std::numeric_limits<double>::infinity();
+  least_rate_ = is_real && health_.is_timed ? health_.wanted_rate : 0.0;
+  largest_rate_ = is_real ? health_.wanted_rate : std::numeric_limits<double>::infinity();
   try {
-    at_once ? updater_.force_update() : updater_.update();
-  } catch (const std::runtime_error&) {
+    report.at_once ? updater_.force_update() : updater_.update();
+  } catch (const std::exception&) {
     rate_.clear();  // the clock was set by more than a ros::Duration can hold, so the updater's subtraction threw
   }
 }

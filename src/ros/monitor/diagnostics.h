@@ -7,6 +7,7 @@
 #include <diagnostic_updater/update_functions.h>
 
 #include "ros/monitor/monitor_health.h"
+#include "ros/monitor/ordered_worker.h"
 
 namespace sdf_ccd {
 
@@ -17,7 +18,7 @@ class Diagnostics {
  public:
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, const std::string& name);
 
-  /// Publishes if a second has passed, or `at_once`, for example after the clock has jumped. If the clock is set by
+  /// Publishes if a second has passed on the ROS clock, or `at_once`, for example after it has jumped. If it is set by
   /// more than 2^31 s, diagnostic_updater throws: measuring the rate then starts again.
   void update(const MonitorHealth& health, bool at_once = false);
 
@@ -25,15 +26,26 @@ class Diagnostics {
   void tick();
 
  private:
+  struct Report {
+    MonitorHealth health;
+    bool at_once = false;
+  };
+
+  void publish(const Report& report);
   void cycles(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void transforms(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void bodies(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
+  // Used by the thread that publishes.
   diagnostic_updater::Updater updater_;
   MonitorHealth health_;
   double least_rate_ = 0.0, largest_rate_ = std::numeric_limits<double>::infinity();  // [Hz]
-  diagnostic_updater::FrequencyStatus rate_;
+  diagnostic_updater::FrequencyStatus rate_;  // may be used by several threads, like the addition to updater_
+
   bool ticks_ = false;
+  bool at_once_ = false;       // requested since the last report
+  ros::WallTime reported_at_;  // time of the last report
+  OrderedWorker<Report> worker_;
 };
 
 }  // namespace sdf_ccd

@@ -39,6 +39,12 @@ class OrderedWorker {
     return items_[(first_ + waiting_) % items_.size()];
   }
 
+  /// The same, but null while all items wait.
+  Item* tryNext() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return waiting_ < items_.size() ? &items_[(first_ + waiting_) % items_.size()] : nullptr;
+  }
+
   void handOver() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
