@@ -181,7 +181,7 @@ void CollisionMonitor::betweenCycles() {
   if (!reconfiguration_ || !reconfiguration_->apply(parameters_)) return;
   trigger_.setOptions(parameters_.trigger);
   proximity_->setParameters(parameters_.proximity);
-  outputs_->setMarkers(parameters_.markers);
+  outputs_->markers().setOptions(parameters_.markers);
   health_watch_.health().wanted_rate = parameters_.rate;
 }
 
@@ -271,7 +271,7 @@ boost::shared_ptr<MonitorState> CollisionMonitor::uncheckedState(const std::stri
 }
 
 void CollisionMonitor::restart(const std::string& reason) {
-  if (outputs_) outputs_->drawWorldAgain();  // rviz deletes all markers when time jumps
+  if (outputs_) outputs_->markers().drawWorldAgain();  // rviz deletes all markers when time jumps
   health_watch_.restart();
   last_step_ = ros::WallTime::now();
   publishUnchecked(reason);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,10 +8,8 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include "ros/messages/link_markers.h"
-#include "ros/messages/markers.h"
 #include "ros/messages/message_pool.h"
-#include "ros/monitor/cycle_snapshot.h"
+#include "ros/monitor/marker_outputs.h"
 #include "ros/monitor/ordered_worker.h"
 #include "ros/monitor/proximity_outputs.h"
 #include "ros/monitor/torque_output.h"
@@ -23,22 +20,17 @@ namespace sdf_ccd {
 
 /// Publishes the results of a cycle.
 ///
-/// Publishes, below the node's name:
-///   contacts         sdf_ccd/ContactArray            every cycle, and once a second while there is none
-///   contact_states   gazebo_msgs/ContactsState       every cycle; see toContactStates()
-///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle: sum of the contact wrenches on the link, in the
-///                                                    link's frame, about its origin [N, N·m]
-///   joint_torques    sensor_msgs/JointState          see TorqueOutput
-///   markers          visualization_msgs/MarkerArray  contacts and status
-///   world            visualization_msgs/MarkerArray  the world's objects as they are checked, again after changes, at
-///                                                    most once a second; latched
-///   links            visualization_msgs/MarkerArray  the links' collision shapes in the colours of their verdicts, all
-///                                                    of them when one changes; latched
+/// Publishes, below the node's name, besides the topics of MarkerOutputs:
+///   contacts         sdf_ccd/ContactArray         every cycle, and once a second while there is none
+///   contact_states   gazebo_msgs/ContactsState    every cycle; see toContactStates()
+///   wrenches/<link>  geometry_msgs/WrenchStamped  every cycle: sum of the contact wrenches on the link, in the link's
+///                                                 frame, about its origin [N, N·m]
+///   joint_torques    sensor_msgs/JointState       see TorqueOutput
 /// Nothing is computed or filled that has no subscriber.
 ///
 /// The thread of the cycles fills the messages, which takes no longer than to copy its results. Another thread
-/// publishes them in their order, without a copy for subscribers in the same process: serialising, sending and drawing
-/// take no time from the cycles, which are blocked only while the messages of several cycles wait.
+/// publishes them in their order, without a copy for subscribers in the same process: serialising and sending take no
+/// time from the cycles, which are blocked only while the messages of several cycles wait. None of them is dropped.
 class Outputs {
  public:
   /// @param state  publisher of the states given below.
@@ -72,11 +64,7 @@ class Outputs {
   /// @param change  made by prepare() since the last adopt(); to be destroyed by a thread that has the time for it.
   void adopt(Change& change);
 
-  /// Draws the world again, for example after a jump of time, when rviz deletes all markers.
-  void drawWorldAgain() { world_drawn_ = 0; }
-
-  /// Sets how markers are drawn from now on.
-  void setMarkers(const MarkerOptions& options) { marker_options_ = options; }
+  MarkerOutputs& markers() { return markers_; }
 
   /// The request for the next cycle, according to the subscribers.
   CycleRequest request(int max_points);
@@ -103,48 +91,24 @@ class Outputs {
     boost::shared_ptr<DistanceArray> distances;
     boost::shared_ptr<sensor_msgs::JointState> torques;
     std::vector<std::pair<ros::Publisher, WrenchMessage>> wrenches;
-    CycleSnapshot snapshot;
-    bool draws_markers = false, draws_links = false;  // of the snapshot
-    MarkerOptions marker_options;
-    std::shared_ptr<const CheckedWorld> world;  // of the results; null if nothing is drawn
-    bool draws_world = false;
-    bool is_unchecked = false;
-    std::string reason;  // of is_unchecked
   };
 
   void countSubscribers();
   void send(Report& report);
-  void draw(const Report& report);
-  void drawWorld(const CheckedWorld& world);
-  void drawLinks();
-  void setWorld(Report& report);
-  void setDrawnWorld(const std::shared_ptr<const CheckedWorld>& world);
 
   ros::NodeHandle node_;
   MonitorLoop& loop_;
   ProximityOutputs& proximity_;
-  ros::Publisher state_, world_publisher_, contacts_, contact_states_, markers_, links_;
+  ros::Publisher state_, contacts_, contact_states_;
   std::vector<LinkWrench> wrenches_;
   TorqueOutput torques_;
-  MarkerOptions marker_options_;
-  std::uint64_t world_drawn_ = 0;  // version that was drawn last
-  ros::WallTime world_drawn_at_;
-
-  // Used by the drawing thread.
-  std::shared_ptr<const CheckedWorld> drawn_;
-  MarkerDrawer drawer_;
-  std::unique_ptr<LinkMarkers> link_markers_;
-  ros::WallTime links_drawn_at_;
-  bool has_drawn_world_ = false;
-
+  MarkerOutputs markers_;
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime counted_at_;  // when subscribers were last counted
   bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
-  bool markers_wanted_ = false, links_wanted_ = false;
 
-  std::atomic<bool> is_finishing_{false};
   std::unique_ptr<OrderedWorker<Report>> worker_;
 };
 
