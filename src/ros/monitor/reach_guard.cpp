@@ -37,7 +37,15 @@ std::vector<UncheckedPair> ReachGuard::check(const TfHistory& history, const Tra
   if (cycle.samples.empty() || slides_.empty()) return unchecked;
   const std::vector<char>& contradicted = watch_.contradicted(cycle.motion, cycle.watched);
   if (!joints_.empty()) copyJoints(history, cycle);
-  for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].problem = problem(j);
+  const auto isSet = [](const std::string& text) { return !text.empty(); };
+  const std::vector<std::string>& missing = cycle.motion.missing;
+  bool any = std::any_of(missing.begin(), missing.end(), isSet) ||
+             std::any_of(contradicted.begin(), contradicted.end(), [](char is) { return is != 0; });
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    joints_[j].problem = problem(j);
+    any |= isSet(joints_[j].problem);
+  }
+  if (!any) return unchecked;
   for (std::size_t p = 0; p < slides_.size(); ++p) {
     const UnreachablePair& pair = world_.unreachable[p];
     std::string reason = contradicted[p] ? contradictionOf(pair) : notWatched(history, cycle, p);
