@@ -51,6 +51,7 @@ struct SphereTree {
     std::int32_t first_child;  ///< children are consecutive; -1 for a leaf
     std::int32_t child_count;
 
+    /// The sphere in double precision.
     BoundingBall ball() const { return {center.cast<double>(), double(radius)}; }
   };
   /// Root first, level by level: children of neighbours are neighbours too. Empty for an empty shell.
