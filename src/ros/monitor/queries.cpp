@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include "common/number_text.h"
@@ -46,7 +47,8 @@ std::string rootFrameOf(const QueryMotions::Request& request) {
   for (const RobotMotion& motion : request.motions) {
     const std::string& of_motion = motion.multi_dof_joint_trajectory.header.frame_id;
     if (!frame.empty() && !of_motion.empty() && of_motion != frame)
-      refuse("the root poses of all motions must be in the same frame, but are in " + frame + " and " + of_motion);
+      refuse(fmt::format("the root poses of all motions must be in the same frame, but are in {} and {}", frame,
+                         of_motion));
     if (!of_motion.empty()) frame = of_motion;
   }
   return frame;
