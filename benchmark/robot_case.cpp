@@ -56,6 +56,18 @@ JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random)
   return positions;
 }
 
+BodyDescription randomBox(const Robot& robot, int number, test::Random& random) {
+  BodyDescription box;
+  box.name = "box" + std::to_string(number);
+  box.frame = robot.model.root();
+  box.is_world = true;
+  GeometryDescription& shape = box.geometry.emplace_back();
+  const auto half = [&] { return test::uniform(random, 0.03, 0.15); };
+  shape.shape = Primitive(Box{{half(), half(), half()}});
+  shape.source = "box";
+  return box;
+}
+
 BodyOptions preparedAsMonitored(const MonitorOptions& monitor) {
   BodyOptions options = optionsForContacts();
   options.motion_margin = ErrorBudget::kChords * monitor.chords.tolerance;

@@ -3,6 +3,7 @@
 #include <random>
 #include <string>
 
+#include "oracle/random.h"
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -32,6 +33,9 @@ JointRange rangeOf(const urdf::Joint& joint);
 
 /// Random positions of all driven joints, uniform within their ranges.
 JointPositions randomPositions(const RobotModel& robot, std::mt19937_64& random);
+
+/// A box of the world, fixed to the robot's root, with half sides of 3 to 15 cm.
+BodyDescription randomBox(const Robot& robot, int number, test::Random& random);
 
 /// Body options as the monitor has them by default. @param monitor  options of the monitor that will use the bodies.
 BodyOptions preparedAsMonitored(const MonitorOptions& monitor);

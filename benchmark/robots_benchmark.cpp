@@ -47,17 +47,11 @@ Robot amongBoxes(Robot robot) {
   test::Random random(2);
   for (int i = 0; i < kBoxes; ++i) {
     const auto X_RB = posesAt(robot.model, randomPositions(robot.model, random), robot.scene.bodies);
-    BodyDescription box;
-    box.name = "box" + std::to_string(i);
-    box.frame = robot.model.root();
-    box.is_world = true;
-    box.X_frame_B = test::pose(random, 3.0, 0.0);
-    box.X_frame_B.translation() =
+    Isometry3d X_RO = test::pose(random, 3.0, 0.0);
+    X_RO.translation() =
         X_RB[random() % X_RB.size()].translation() + test::uniform(random, 0.1, 0.5) * test::direction(random);
-    GeometryDescription& shape = box.geometry.emplace_back();
-    const auto half = [&] { return test::uniform(random, 0.03, 0.15); };
-    shape.shape = Primitive(Box{{half(), half(), half()}});
-    shape.source = "box";
+    BodyDescription box = randomBox(robot, i, random);
+    box.X_frame_B = X_RO;
     robot.scene.bodies.push_back(box);
   }
   disableUnreachable(robot.model, robot.scene);

@@ -68,14 +68,7 @@ class Placer {
   /// A box whose minimum distance from the robot's moving bodies is `wanted` [m]; if that is negative, the box is moved
   /// that much farther into them.
   BodyDescription place(int number, double wanted, test::Random& random) {
-    const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
-    BodyDescription box;
-    box.name = "box" + std::to_string(number);
-    box.frame = robot_.model.root();
-    box.is_world = true;
-    GeometryDescription& shape = box.geometry.emplace_back();
-    shape.shape = Primitive(Box{{uniform(0.03, 0.15), uniform(0.03, 0.15), uniform(0.03, 0.15)}});
-    shape.source = "box";
+    BodyDescription box = randomBox(robot_, number, random);
     const int index = fcl_.add(box);
 
     constexpr int kAttempts = 100;
