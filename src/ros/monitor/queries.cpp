@@ -9,7 +9,6 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include "common/number_text.h"
 #include "common/refuse.h"
@@ -266,9 +265,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   wanted.margin = request.margin;
   wanted.list_pairs = request.list_pairs;
   wanted.refine = refine_;
-  std::size_t per_piece = 0;
-  arena_.run(
-      [&] { per_piece = kMotionsPerThread * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()); });
+  const std::size_t per_piece = kMotionsPerThread * arena_.threads();
   MotionNotes notes;
   double spent = 0.0;
   for (std::size_t first = 0; first < count; first += per_piece) {

@@ -26,6 +26,8 @@ class WorkArena {
   WorkArena(const WorkArena&) = delete;
   WorkArena& operator=(const WorkArena&) = delete;
 
+  std::size_t threads() const { return threads_; }
+
   /// Does the work in the calling thread, whose priority should be low, and its parallel loops on all of the arena's
   /// threads. Waits for earlier work. A CancelScope of the calling thread ends both. The work must not call this.
   /// @throws Cancelled, and what the work throws.
