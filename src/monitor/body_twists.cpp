@@ -134,8 +134,7 @@ void BodyTwists::forget() {
 
 void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodies) {
   origin_ = other.origin_;
-  for (Followed& body : bodies_) body.rests = false;
-  for (TwistGroup& group : groups_) group.rests = false;
+  endRest();
   for (const BodyRun& run : bodies) {
     std::copy_n(other.bodies_.begin() + static_cast<std::ptrdiff_t>(run.from), run.count,
                 bodies_.begin() + static_cast<std::ptrdiff_t>(run.to));
@@ -175,6 +174,12 @@ void BodyTwists::lose(std::size_t b) {
     at(static_cast<TwistRow>(row), b) = std::numeric_limits<float>::quiet_NaN();
   bodies_[b].is_followed = bodies_[b].rests = false;
   groups_[twistGroup(slots_[b])].rests = false;
+}
+
+/// Has the rows of all bodies written in the next step.
+void BodyTwists::endRest() {
+  for (Followed& body : bodies_) body.rests = false;
+  for (TwistGroup& group : groups_) group.rests = false;
 }
 
 /// Finds the groups that rest now. Writing a body's rows ends its group's rest.
@@ -262,8 +267,7 @@ void BodyTwists::chooseOrigin() {
   const Vector3d& center = bodies_[anchor_].center_W;
   if ((center - origin_).squaredNorm() < kNear * kNear) return;
   origin_ = center;
-  for (Followed& body : bodies_) body.rests = false;
-  for (TwistGroup& group : groups_) group.rests = false;
+  endRest();
 }
 
 /// Sets the pose of a body. @return whether it can be followed.

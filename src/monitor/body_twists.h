@@ -118,6 +118,7 @@ class BodyTwists {
   void move(std::size_t body, const Isometry3d& X_WB, const TwistLanes& twists, std::size_t lane);
   void write(std::size_t body, const Twist& twist);
   void lose(std::size_t body);
+  void endRest();
   void summariseGroups();
   void chooseOrigin();
   bool fillGroup(std::size_t first_body) const;

@@ -147,6 +147,17 @@ struct BesideResting {
   }
 };
 
+SDF_CCD_LANES
+void addTravel(const float* rows, const std::vector<PairBlock>& blocks, float* spent) {
+  OneBody a;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    if (i == 0 || blocks[i].rows_a != blocks[i - 1].rows_a) a.load(rows + blocks[i].rows_a);
+    const BodiesInRow b{rows + static_cast<std::size_t>(blocks[i].group) * kTwistBlock};
+    const std::size_t at = i * kTwistLanes;
+    store((load(spent + at) + travelOf(a, b)) * kUpwards, spent + at);
+  }
+}
+
 /// Arrays of a scan, in the order of the blocks.
 struct ScanArrays {
   const float* rows;
@@ -159,17 +170,6 @@ struct ScanArrays {
   const float* error;
   const float* soon;
 };
-
-SDF_CCD_LANES
-void addTravel(const ScanArrays& s) {
-  OneBody a;
-  for (std::size_t i = 0; i < s.count; ++i) {
-    if (i == 0 || s.blocks[i].rows_a != s.blocks[i - 1].rows_a) a.load(s.rows + s.blocks[i].rows_a);
-    const BodiesInRow b{s.rows + static_cast<std::size_t>(s.blocks[i].group) * kTwistBlock};
-    const std::size_t at = i * kTwistLanes;
-    store((load(s.spent + at) + travelOf(a, b)) * kUpwards, s.spent + at);
-  }
-}
 
 /// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget;
 /// there is none without motion.
@@ -224,7 +224,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     due_blocks[found] = i;
     found += all_quiet ? 0 : 1;
     block.path = 0.0F;
-    block.least = may_wait && all_quiet ? leastOf(left) : -std::numeric_limits<float>::infinity();
+    block.least = may_wait && all_quiet ? leastOf(left) : ClearanceTable::kUnknown;
   }
   *due_count = found;
   SkippedPairs quiet;
@@ -338,8 +338,7 @@ void ClearanceTable::take(const ClearanceTable& other, const std::vector<Moved>&
 
 void ClearanceTable::advance(const BodyTwists& bodies) {
   if (blocks_.empty()) return;
-  addTravel({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), budget_.data(), spent_.data(),
-             slack_.data(), error_.data(), soon_.data()});
+  addTravel(bodies.rows(), blocks_, spent_.data());
   has_spent_ = true;
 }
 

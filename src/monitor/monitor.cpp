@@ -200,7 +200,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion) {
   std::optional<double> clearance;
   try {
     clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
-  } catch (const std::exception&) {  // as when the cycle is cancelled; its results are complete
+  } catch (const std::exception&) {  // the cycle's results are complete without it
   }
   memory->giveBack(std::move(taken));
   schedule->raiseSoon(clearance);
