@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <optional>
 
 #include "motion/chords.h"
@@ -24,57 +21,29 @@ class ChordFrame {
   std::optional<ScrewMotion> motion_;  // none if F rests, which saves the trigonometry at every node
 };
 
-/// The poses of a ChordFrame; the last few are cached, as most points are evaluated at the same times.
-class ChordPoses {
- public:
-  void begin(const ChordFrame& frame) {
-    frame_ = frame;
-    known_ = next_ = 0;
-  }
-
-  /// @return a reference that is valid until the next call.
-  const Isometry3d& at(double s) {
-    for (std::size_t i = 0; i < known_; ++i)
-      if (kept_[i].s == s) return kept_[i].X_CF;
-    Kept& kept = kept_[next_];
-    next_ = (next_ + 1) % kept_.size();
-    known_ = std::max(known_, next_ == 0 ? kept_.size() : next_);
-    kept = {s, frame_.pose(s)};
-    return kept.X_CF;
-  }
-
- private:
-  struct Kept {
-    double s;
-    Isometry3d X_CF;
-  };
-
-  ChordFrame frame_;
-  std::array<Kept, 8> kept_;
-  std::size_t known_ = 0, next_ = 0;
-};
-
 /// A shell point along one chord, frame F (paper Eq. 1).
 struct ChordPoint {
-  Vector3d start;         ///< [m]
-  Vector3d step;          ///< [m], over the whole chord
-  Vector3d inward_start;  ///< minus the point's outward normal: out of the field's body where the two bodies touch
-  Vector3d inward_end;
-  double duration;  ///< [s]
+  const Chord& chord;
+  const Vector3f& normal_P;  ///< unit, out of the shell's body
+  Vector3d start;            ///< [m]
+  Vector3d step;             ///< [m], over the whole chord
 
-  ChordPoint(const Chord& chord, const Vector3d& p_P, const Vector3d& normal_P)
-      : start(chord.X_FP_start * p_P),
-        step(chord.X_FP_end * p_P - start),
-        inward_start(-(chord.X_FP_start.linear() * normal_P)),
-        inward_end(-(chord.X_FP_end.linear() * normal_P)),
-        duration(chord.t_end - chord.t_start) {}
+  ChordPoint(const Chord& on, const Vector3d& p_P, const Vector3f& n_P)
+      : chord(on), normal_P(n_P), start(on.X_FP_start * p_P), step(on.X_FP_end * p_P - start) {}
+
+  double duration() const { return chord.t_end - chord.t_start; }  ///< [s]
 
   Vector3d position(double s) const { return start + s * step; }
-  Vector3d inward(double s) const { return ((1.0 - s) * inward_start + s * inward_end).normalized(); }
+
+  /// Minus the point's outward normal: out of the field's body where the two bodies touch.
+  Vector3d inward(double s) const {
+    const Vector3d n_P = normal_P.cast<double>();
+    return -((1.0 - s) * (chord.X_FP_start.linear() * n_P) + s * (chord.X_FP_end.linear() * n_P)).normalized();
+  }
 
   /// Velocity of the shell's point relative to the field's body at the same point: v_A + ω_A×r_A − v_B −
   /// ω_B×r_B of Eq. 10, in F [m/s].
-  Vector3d velocity() const { return step / duration; }
+  Vector3d velocity() const { return step / duration(); }
 };
 
 }  // namespace sdf_ccd

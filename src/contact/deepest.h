@@ -25,6 +25,15 @@ class Deepest {
     previous_ = now;
   }
 
+  /// Offers the minimum of a piece, which refine() does not lower. @return whether it is the lowest so far.
+  bool offerMinimum(double s, double value) {
+    startRun();
+    const bool is_lowest = value < best_.value;
+    offer(s, value);
+    startRun();
+    return is_lowest;
+  }
+
   /// Lowers the best value by parabolas through it and its neighbours.
   template <typename Function>
   void refine(const Function& value_at) {

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "chord_frame.h"
+#include "chord_impulses.h"
 #include "common/number_text.h"
 #include "deepest.h"
 #include "field/cell_reader.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/query/segment_query.h"
+#include "smooth_piece.h"
 
 namespace sdf_ccd {
 namespace {
@@ -27,13 +29,19 @@ const std::vector<Node> kGauss = {
     {0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}};
 const std::vector<Node> kMidpoint = {{0.5, 1.0}};
 
+/// Whether a field's gradient is known, which it is not far inside.
+bool hasDirection(const Vector3d& gradient) {
+  return gradient.squaredNorm() > 1e-18;
+}
+
 // Values of sibling fields that differ by less than this, the rounding of their poses, count as equal [m].
 constexpr double kTie = 1e-9;
 
-bool isRound(const DistanceField& field) {
-  const Primitive* const primitive = field.primitive();
-  return primitive && (std::holds_alternative<Sphere>(*primitive) || std::holds_alternative<Cylinder>(*primitive));
-}
+/// An end of a smooth piece at which a point is deepest.
+struct PieceEnd {
+  double s;  // -1: none
+  Vector3d gradient;
+};
 
 class Integrator {
  public:
@@ -41,49 +49,68 @@ class Integrator {
              ContactImpulse& result)
       : input_(input),
         field_(input.field),
-        is_round_(isRound(input.field)),
+        smooth_(input.field, field_),
         options_(options),
         rule_(options.quadrature == Quadrature::kExact ? kGauss : kMidpoint),
         request_(request),
-        result_(result) {}
+        result_(result),
+        impulses_(result.on_shell_body) {}
 
   void add(const ShellHit& hit) {
     if (hit.chord != chord_) {
       chord_ = hit.chord;
-      poses_.begin(ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]));
+      impulses_.begin(ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]));
     }
-    const Chord& chord = input_.path.chords[chord_];
-    const ChordPoint point(chord, input_.shell.points[hit.point], input_.shell.normals[hit.point].cast<double>());
+    const ChordPoint point = pointOf(hit);
     const double share = options_.stiffness_per == StiffnessPer::kArea ? double(input_.shell.areas[hit.point]) : 1.0;
     stiffness_ = share * options_.stiffness;
     damping_ = share * options_.damping;
 
+    deepest_ = {};
+    end_.s = -1.0;
+    if (isSmooth(point, hit.interval)) {
+      addSmooth(point, hit.interval.enter, hit.interval.exit);
+    } else {
+      addPieces(point, hit.interval);
+    }
+    deepest_.refine([&](double s) { return valueAt(point, s); });
+    result_.depths.push_back(depthOf(point, hit.interval));
+  }
+
+  void finish() { impulses_.finish(); }
+
+ private:
+  ChordPoint pointOf(const ShellHit& hit) const {
+    return {input_.path.chords[hit.chord], input_.shell.points[hit.point], input_.shell.normals[hit.point]};
+  }
+
+  double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }
+
+  /// Whether the field is one smooth piece during a hit, as it mostly is at the rate of a robot's cycles: reads it.
+  bool isSmooth(const ChordPoint& point, const Interval& times) {
+    return options_.quadrature == Quadrature::kExact && input_.siblings.empty() &&
+           smooth_.readWay(point.position(times.enter), point.position(times.exit), piece_);
+  }
+
+  void addPieces(const ChordPoint& point, const Interval& times) {
     std::vector<double>& breaks = result_.breaks;
     breaks.clear();
     if (options_.quadrature == Quadrature::kExact) {
-      smoothPieces(input_.field, {point.start, point.position(1.0)}, hit.interval, breaks);
+      smoothPieces(input_.field, {point.start, point.position(1.0)}, times, breaks);
     } else {
       for (int i = 1; i < options_.midpoint_intervals; ++i) {
-        const double share_of_interval = static_cast<double>(i) / options_.midpoint_intervals;
-        breaks.push_back(hit.interval.enter + share_of_interval * (hit.interval.exit - hit.interval.enter));
+        const double share = static_cast<double>(i) / options_.midpoint_intervals;
+        breaks.push_back(times.enter + share * (times.exit - times.enter));
       }
     }
-    breaks.insert(breaks.begin(), hit.interval.enter);
-    breaks.push_back(hit.interval.exit);
+    breaks.insert(breaks.begin(), times.enter);
+    breaks.push_back(times.exit);
     if (!input_.siblings.empty()) splitWhereOwnerChanges(point);
-
-    deepest_ = {};
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) addPiece(point, breaks[i], breaks[i + 1]);
-    deepest_.refine([&](double s) { return valueAt(point, s); });
-    result_.depths.push_back(depthOf(point, chord, hit.interval));
   }
 
- private:
-  double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }
-
   Vector3d fieldNormal(const ChordPoint& point, double s, const Vector3d& gradient) const {
-    const double norm = gradient.norm();
-    return norm > 1e-9 ? Vector3d(gradient / norm) : point.inward(s);
+    return hasDirection(gradient) ? Vector3d(gradient.normalized()) : point.inward(s);
   }
 
   Vector3d normal(const ChordPoint& point, double s, const Vector3d& gradient) const {
@@ -135,37 +162,38 @@ class Integrator {
       deepest_.startRun();
       return;
     }
-    // The gradient is discontinuous between cells: the ends are evaluated slightly inside this piece.
-    const double first = from + 1e-9 * length, last = to - 1e-9 * length;
-    if (!request_.impulse) {
-      offer(point, first);
-      for (const Node& node : rule_) offer(point, from + node.s * length);
-      return offer(point, last);
-    }
-    const FieldValue at_first = field_.interpolate(point.position(first));
-    const FieldValue at_last = field_.interpolate(point.position(last));
-    const bool known = at_first.gradient.norm() > 1e-9 && at_last.gradient.norm() > 1e-9;
-    const bool exact = options_.quadrature == Quadrature::kExact;
-    // N is linear where d is cubic, in a cell, and constant along a box's pieces; about an axis or a center it turns.
-    const bool linear = exact && !is_round_ && (known || options_.normal == NormalSource::kShell);
-    const Vector3d N_first = normal(point, first, at_first.gradient);
-    const Vector3d N_last = normal(point, last, at_last.gradient);
-    deepest_.offer(first, at_first.value);
+    if (options_.quadrature == Quadrature::kExact &&
+        smooth_.readPiece(point.position(from), point.position(to), piece_))
+      return addSmooth(point, from, to);
+    // Where two pieces meet, the gradient may be discontinuous: the ends are evaluated slightly inside this one.
+    offer(point, from + 1e-9 * length);
     for (const Node& share : rule_) {
       const Node node{from + share.s * length, share.weight * length};
-      FieldValue sample;
-      Vector3d N;
-      if (linear) {
-        sample.value = valueAt(point, node.s);
-        N = (1.0 - share.s) * N_first + share.s * N_last;
-      } else {
-        sample = field_.interpolate(point.position(node.s));
-        N = normal(point, node.s, sample.gradient);
+      if (!request_.impulse) {
+        offer(point, node.s);
+        continue;
       }
-      deepest_.offer(node.s, sample.value);
-      addNode(point, node, sample.value, N);
+      const FieldValue at = field_.interpolate(point.position(node.s));
+      deepest_.offer(node.s, at.value);
+      addNode(point, node, at.value, normal(point, node.s, at.gradient));
     }
-    deepest_.offer(last, at_last.value);
+    offer(point, to - 1e-9 * length);
+  }
+
+  /// Adds piece_.
+  void addSmooth(const ChordPoint& point, double from, double to) {
+    const double length = to - from;
+    const CubicMinimum lowest = minimumOf(piece_.distance);
+    const double s = from + lowest.u * length;
+    if (deepest_.offerMinimum(s, lowest.value) && (lowest.u == 0.0 || lowest.u == 1.0))
+      end_ = {s, lowest.u == 0.0 ? piece_.gradient_first : piece_.gradient_last};
+    if (!request_.impulse) return;
+    // N is nearly linear where d is cubic, in a cell.
+    const Vector3d N_first = normal(point, from, piece_.gradient_first);
+    const Vector3d N_last = normal(point, to, piece_.gradient_last);
+    for (const Node& node : kGauss)
+      addNode(point, {from + node.s * length, node.weight * length}, piece_.distance(node.s),
+              (1.0 - node.s) * N_first + node.s * N_last);
   }
 
   void offer(const ChordPoint& point, double s) { deepest_.offer(s, valueAt(point, s)); }
@@ -173,24 +201,22 @@ class Integrator {
   void addNode(const ChordPoint& point, const Node& node, double value, const Vector3d& N_F) {
     Vector3d F_F = -stiffness_ * std::min(value, 0.0) * N_F;  // Eq. 3, N as in design §3.6
     if (damping_ != 0.0) F_F -= damping_ * point.velocity();  // Eq. 10 with the sign that opposes the motion
-    const Isometry3d& X_CF = poses_.at(node.s);
-    const Vector3d impulse = node.weight * point.duration * (X_CF.linear() * F_F);  // Eq. 4
-    const Vector3d r_C = X_CF * point.position(node.s);
-    result_.on_shell_body += {impulse, r_C.cross(impulse)};  // Eq. 5, 11
+    impulses_.add(node.s, point.position(node.s), (node.weight * point.duration()) * F_F);  // Eq. 4, 5, 11
   }
 
-  HitDepth depthOf(const ChordPoint& point, const Chord& chord, const Interval& interval) {
+  HitDepth depthOf(const ChordPoint& point, const Interval& times) {
     HitDepth depth;
     depth.siblings = !deepest_.found();
     if (depth.siblings) return depth;
     const double s = deepest_.s();
-    const Isometry3d& X_CF = poses_.at(s);
+    const Isometry3d& X_CF = impulses_.poseAt(s);
     depth.depth = std::max(-deepest_.value(), 0.0);
-    depth.time = chord.t_start + s * point.duration;
+    depth.time = point.chord.t_start + s * point.duration();
     depth.p_F = point.position(s);
     depth.p_C = X_CF * depth.p_F;
-    depth.normal_C = X_CF.linear() * fieldNormal(point, s, field_.interpolate(depth.p_F).gradient);
-    if (depth.depth >= input_.field.band() - input_.field.errorBound()) depth.reach = reachOf(point, interval);
+    const Vector3d gradient = end_.s == s ? end_.gradient : field_.interpolate(depth.p_F).gradient;
+    depth.normal_C = X_CF.linear() * fieldNormal(point, s, gradient);
+    if (depth.depth >= input_.field.band() - input_.field.errorBound()) depth.reach = reachOf(point, times);
     if (!request_.depth_errors) return depth;
     depth.error = input_.field.sample(depth.p_F).error;
     depth.depth_lower_bound = depth.depth - depth.error;
@@ -201,22 +227,23 @@ class Integrator {
 
   /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.
   /// Only the greatest one of all points is needed precisely.
-  double reachOf(const ChordPoint& point, const Interval& interval) {
+  double reachOf(const ChordPoint& point, const Interval& times) {
     constexpr double kMostPieces = 16.0;
-    const double length = (point.position(interval.exit) - point.position(interval.enter)).norm();
-    const Vector3d middle = point.position(0.5 * (interval.enter + interval.exit));
-    const double rough = 0.5 * length - input_.field.lowerBound(middle);
-    if (rough <= greatest_reach_) return rough;
-    const double wanted = std::max(1.0, std::ceil(length / input_.field.errorBound()));
-    const int pieces = static_cast<int>(std::min(wanted, kMostPieces));
-    double reach = 0.0, before = 0.0;
-    for (int i = 0; i <= pieces; ++i) {
-      const double share = static_cast<double>(i) / pieces;
-      const FieldSample sample =
-          input_.field.sample(point.position((1.0 - share) * interval.enter + share * interval.exit));
-      const double greatest = std::max(0.0, sample.error - sample.value);
-      if (i > 0) reach = std::max(reach, 0.5 * (before + greatest + length / pieces));
-      before = greatest;
+    const double length = (point.position(times.exit) - point.position(times.enter)).norm();
+    const auto greatestAt = [&](double share) {
+      const FieldSample sample = input_.field.sample(point.position((1.0 - share) * times.enter + share * times.exit));
+      return std::max(0.0, sample.error - sample.value);
+    };
+    double reach = 0.5 * length - input_.field.lowerBound(point.position(0.5 * (times.enter + times.exit)));
+    if (length > input_.field.errorBound() && reach > greatest_reach_) {
+      const int pieces = static_cast<int>(std::min(std::ceil(length / input_.field.errorBound()), kMostPieces));
+      reach = 0.0;
+      double before = greatestAt(0.0);
+      for (int i = 1; i <= pieces; ++i) {
+        const double after = greatestAt(static_cast<double>(i) / pieces);
+        reach = std::max(reach, 0.5 * (before + after + length / pieces));
+        before = after;
+      }
     }
     greatest_reach_ = std::max(greatest_reach_, reach);
     return reach;
@@ -224,17 +251,19 @@ class Integrator {
 
   const ContactInput& input_;
   CellReader field_;
-  bool is_round_;  // the field is a sphere or a cylinder
+  SmoothPieceReader smooth_;
+  SmoothPiece piece_;  // read last
   const ContactOptions& options_;
   const std::vector<Node>& rule_;  // on each piece
   const ContactRequest& request_;
   ContactImpulse& result_;
   int chord_ = -1;
-  ChordPoses poses_;
+  ChordImpulses impulses_;
   double stiffness_ = 0.0;       // of this point [N/m]
   double damping_ = 0.0;         // of this point [N·s/m]
   double greatest_reach_ = 0.0;  // of all points so far [m]
   Deepest deepest_;
+  PieceEnd end_;
 };
 
 }  // namespace
@@ -266,6 +295,7 @@ void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hi
     cancel.check();
     integrator.add(hit);
   }
+  integrator.finish();
 }
 
 }  // namespace sdf_ccd

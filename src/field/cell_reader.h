@@ -18,9 +18,23 @@ class CellReader {
   /// The value alone.
   double value(const Vector3d& p_F);
 
- private:
+  /// Moves to the cell (or leaf) that holds the point, and reads its corners unless it is the current one.
+  /// @return false if the point is in none with corner values, as those of a primitive are.
   bool enter(const Vector3d& p_F);
-  bool stays(const Vector3d& g);
+
+  /// The following are of the current cell, once enter() has returned true.
+  const std::array<double, 8>& corners() const { return corners_; }
+  double side() const { return side_ * unit_; }  ///< [m]
+
+  /// Whether it holds the point.
+  bool holds(const Vector3d& p_F) const { return holdsLattice(inLattice(p_F)); }
+
+  /// The point's coordinates in it, clamped to [0, 1]³.
+  Vector3d local(const Vector3d& p_F) const;
+
+ private:
+  Vector3d inLattice(const Vector3d& p_F) const { return (p_F - origin_) / unit_; }
+  bool holdsLattice(const Vector3d& g) const;
   bool enterCell(const Vector3d& g);
   bool enterLeaf(const Vector3d& g);
 

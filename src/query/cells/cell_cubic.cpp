@@ -83,6 +83,10 @@ CellIntervals nonPositive(const CellCubic& f) {
 }
 
 CubicMinimum minimumOf(const CellCubic& f) {
+  // The Bézier coefficients of the slope: where all have one sign, it has.
+  const double first = f.c[1], middle = f.c[1] + f.c[2], last = middle + f.c[2] + 3.0 * f.c[3];
+  if (first >= 0.0 && middle >= 0.0 && last >= 0.0) return {0.0, f(0.0)};
+  if (first <= 0.0 && middle <= 0.0 && last <= 0.0) return {1.0, f(1.0)};
   CubicMinimum lowest{0.0, f(0.0)};
   const auto offer = [&](double u) {
     const double value = f(u);

@@ -1,0 +1,61 @@
+#include "smooth_piece.h"
+
+#include <optional>
+
+#include "field/uniform/sparse_grid.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// The distance from a plane.
+void readPlane(const HalfSpace& plane, const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
+  piece.distance = {{plane.normal.dot(from) - plane.offset, plane.normal.dot(to - from), 0.0, 0.0}};
+  piece.gradient_first = piece.gradient_last = plane.normal;
+}
+
+/// The plane to which a point inside is nearest; none if the surface is not made of planes.
+std::optional<HalfSpace> nearestFace(const Primitive& primitive, const Vector3d& p) {
+  if (const HalfSpace* plane = std::get_if<HalfSpace>(&primitive)) return *plane;
+  const Box* box = std::get_if<Box>(&primitive);
+  if (!box) return std::nullopt;
+  int axis = 0;
+  (p.cwiseAbs() - box->half_size).maxCoeff(&axis);
+  return HalfSpace{p[axis] < 0.0 ? Vector3d(-Vector3d::Unit(axis)) : Vector3d(Vector3d::Unit(axis)),
+                   box->half_size[axis]};
+}
+
+}  // namespace
+
+bool SmoothPieceReader::readWay(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
+  if (!primitive_) {
+    if (!cells_.enter(from) || !cells_.holds(to)) return false;
+    readCell(from, to, piece);
+    return true;
+  }
+  // Where a linear function is the largest of several at both ends, it is so in between.
+  const std::optional<HalfSpace> face = nearestFace(*primitive_, from);
+  if (!face || nearestFace(*primitive_, to)->normal != face->normal) return false;
+  readPlane(*face, from, to, piece);
+  return true;
+}
+
+bool SmoothPieceReader::readPiece(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
+  const Vector3d middle = 0.5 * (from + to);
+  if (!primitive_) {
+    if (!cells_.enter(middle)) return false;
+    readCell(from, to, piece);
+    return true;
+  }
+  const std::optional<HalfSpace> face = nearestFace(*primitive_, middle);
+  if (face) readPlane(*face, from, to, piece);
+  return face.has_value();
+}
+
+void SmoothPieceReader::readCell(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) const {
+  const Vector3d u_from = cells_.local(from), u_to = cells_.local(to);
+  piece.distance = cellCubic(cells_.corners(), u_from, u_to, 0.0);
+  piece.gradient_first = trilinearGradient(cells_.corners(), u_from) / cells_.side();
+  piece.gradient_last = trilinearGradient(cells_.corners(), u_to) / cells_.side();
+}
+
+}  // namespace sdf_ccd

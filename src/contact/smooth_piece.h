@@ -1,0 +1,36 @@
+#pragma once
+
+#include "field/cell_reader.h"
+#include "query/cells/cell_cubic.h"
+
+namespace sdf_ccd {
+
+/// A field along a straight piece of a path on which the distance is a cubic: in a cell of a grid, next to one face of
+/// a box, in a half-space.
+struct SmoothPiece {
+  CellCubic distance;       ///< [m], of u from 0 at the piece's start to 1 at its end
+  Vector3d gradient_first;  ///< at its start
+  Vector3d gradient_last;   ///< at its end
+};
+
+/// Reads such pieces from one field. Successive pieces are mostly in the same cell, which is read once.
+class SmoothPieceReader {
+ public:
+  /// @param cells  of the field; must outlive this, like the field.
+  SmoothPieceReader(const DistanceField& field, CellReader& cells) : cells_(cells), primitive_(field.primitive()) {}
+
+  /// The whole way from one point to another [m]. @return false if it is not one smooth piece, or not known to be one.
+  bool readWay(const Vector3d& from, const Vector3d& to, SmoothPiece& piece);
+
+  /// What lies between two of smoothPieces()'s breaks, whose rounding may leave them in a neighbouring cell.
+  /// @return false where the field has no corner values, and in round primitives.
+  bool readPiece(const Vector3d& from, const Vector3d& to, SmoothPiece& piece);
+
+ private:
+  void readCell(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) const;
+
+  CellReader& cells_;
+  const Primitive* primitive_;
+};
+
+}  // namespace sdf_ccd
