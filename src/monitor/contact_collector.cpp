@@ -130,7 +130,9 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     const HitDepth& depth = impulse_.depths[h];
     const Chord& chord = input.path.chords[hit.chord];
     const Interval times{timeAt(chord, hit.interval.enter), timeAt(chord, hit.interval.exit)};
-    intervals_.push_back(times);
+    // Most points are in contact all the time.
+    if (intervals_.empty() || times.enter < intervals_.back().enter || times.exit > intervals_.back().exit)
+      intervals_.push_back(times);
     if (depth.siblings) continue;
     Found found{shell_is_a ? 0 : 1,
                 hit.point,
@@ -195,9 +197,21 @@ void ContactCollector::joinWhereMany() {
   }
 }
 
+/// Whether a point has several hits. Most have one, and then the large records need not be sorted.
+bool ContactCollector::haveSharedPoint() {
+  points_.clear();
+  for (const Found& found : found_) points_.push_back((std::uint32_t(found.role) << 31) | std::uint32_t(found.point));
+  CancelTicks<1024> cancel;
+  std::sort(points_.begin(), points_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    cancel.check();
+    return a < b;
+  });
+  return std::adjacent_find(points_.begin(), points_.end()) != points_.end();
+}
+
 /// Joins the hits of one point that meet, over chords and parts, to one contact.
 void ContactCollector::join() {
-  if (found_.empty()) return;
+  if (!haveSharedPoint()) return;
   CancelTicks<1024> cancel;
   std::sort(found_.begin(), found_.end(), [&](const Found& a, const Found& b) {
     cancel.check();
@@ -224,6 +238,12 @@ void ContactCollector::join() {
   found_.resize(last + 1);
 }
 
+/// A total order, so that it does not matter in which one hits are found.
+bool ContactCollector::isDeeper(const Found& a, const Found& b) {
+  return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
+         std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
+}
+
 /// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
 void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) {
   if (found.field) point.depth_error = found.field->sample(found.p_F).error;
@@ -241,7 +261,7 @@ void ContactCollector::addPeaks(PairResult& result) {
     if (after == result.intervals.begin()) continue;
     Peak& peak = peaks_[static_cast<std::size_t>(after - result.intervals.begin()) - 1];
     peak.reach = std::max(peak.reach, found.reach);
-    if (!peak.deepest || found.contact.depth > peak.deepest->contact.depth) peak.deepest = &found;
+    if (!peak.deepest || isDeeper(found, *peak.deepest)) peak.deepest = &found;
   }
   for (const Peak& peak : peaks_) {
     if (!peak.deepest) continue;
@@ -256,10 +276,7 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   join();
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 0)));
   std::partial_sort(found_.begin(), found_.begin() + std::min(found_.size(), std::max<std::size_t>(listed, 1)),
-                    found_.end(), [](const Found& a, const Found& b) {
-                      return std::tie(b.contact.depth, a.role, a.point, a.contact.enter) <
-                             std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
-                    });
+                    found_.end(), isDeeper);
   for (std::size_t i = 0; i < listed; ++i) {
     result.points.push_back(found_[i].contact);
     setError(found_[i], found_[i].reach, result.points.back());

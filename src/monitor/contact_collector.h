@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "contact/penalty.h"
@@ -63,8 +64,10 @@ class ContactCollector {
   bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
                      std::size_t max_tested) const;
   void addHits(const ContactInput& input, bool shell_is_a);
+  bool haveSharedPoint();
   void join();
   void joinWhereMany();
+  static bool isDeeper(const Found& a, const Found& b);
   void addPeaks(PairResult& result);
   static void setError(const Found& found, double reach, ContactPoint& point);
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
@@ -81,9 +84,10 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  std::vector<Peak> peaks_;       // per interval
-  std::vector<Isometry3d> X_CF_;  // per chord end: pose of the field's body
-  std::vector<Isometry3d> X_CG_;  // the same for a part, in one block
+  std::vector<std::uint32_t> points_;  // of found_: role and point
+  std::vector<Peak> peaks_;            // per interval
+  std::vector<Isometry3d> X_CF_;       // per chord end: pose of the field's body
+  std::vector<Isometry3d> X_CG_;       // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
   std::vector<ShellHit> listed_;                     // hits of a block
