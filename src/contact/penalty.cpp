@@ -68,7 +68,8 @@ class Integrator {
 
     deepest_ = {};
     end_.s = -1.0;
-    if (isSmooth(point, hit.interval)) {
+    is_smooth_ = readWay(point, hit.interval);
+    if (is_smooth_) {
       addSmooth(point, hit.interval.enter, hit.interval.exit);
     } else {
       addPieces(point, hit.interval);
@@ -87,7 +88,7 @@ class Integrator {
   double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }
 
   /// Whether the field is one smooth piece during a hit, as it mostly is at the rate of a robot's cycles: reads it.
-  bool isSmooth(const ChordPoint& point, const Interval& times) {
+  bool readWay(const ChordPoint& point, const Interval& times) {
     return options_.quadrature == Quadrature::kExact && input_.siblings.empty() &&
            smooth_.readWay(point.position(times.enter), point.position(times.exit), piece_);
   }
@@ -216,7 +217,8 @@ class Integrator {
     depth.p_C = X_CF * depth.p_F;
     const Vector3d gradient = end_.s == s ? end_.gradient : field_.interpolate(depth.p_F).gradient;
     depth.normal_C = X_CF.linear() * fieldNormal(point, s, gradient);
-    if (depth.depth >= input_.field.band() - input_.field.errorBound()) depth.reach = reachOf(point, times);
+    if (depth.depth >= input_.field.band() - input_.field.errorBound())
+      depth.reach = reachOf(point, times, depth.depth);
     if (!request_.depth_errors) return depth;
     depth.error = input_.field.sample(depth.p_F).error;
     depth.depth_lower_bound = depth.depth - depth.error;
@@ -226,9 +228,12 @@ class Integrator {
   }
 
   /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.
-  /// Only the greatest one of all points is needed precisely.
-  double reachOf(const ChordPoint& point, const Interval& times) {
+  /// Only the greatest one of all points is needed precisely. @param depth  as found there [m].
+  double reachOf(const ChordPoint& point, const Interval& times, double depth) {
     constexpr double kMostPieces = 16.0;
+    // Of a smooth piece, that is the interpolated field's greatest depth.
+    const double rough = depth + input_.field.errorBound();
+    if (is_smooth_ && rough <= greatest_reach_) return rough;
     const double length = (point.position(times.exit) - point.position(times.enter)).norm();
     const auto greatestAt = [&](double share) {
       const FieldSample sample = input_.field.sample(point.position((1.0 - share) * times.enter + share * times.exit));
@@ -264,6 +269,7 @@ class Integrator {
   double greatest_reach_ = 0.0;  // of all points so far [m]
   Deepest deepest_;
   PieceEnd end_;
+  bool is_smooth_ = false;  // this hit is one smooth piece
 };
 
 }  // namespace

@@ -34,6 +34,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
   impulse_on_a_C_ = {};
   intervals_.clear();
   found_.clear();
+  is_divided_ = false;
   most_found_ = most_intervals_ = kManyFound;
 }
 
@@ -64,6 +65,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
     const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
+    if (chords > 1 || p > 0) is_divided_ = true;
     std::size_t queried = chords;
     const auto queryBlock = [&](std::size_t first) -> const ChordPath& {
       const ChordPath& block = blockOf(path, first, size);
@@ -200,7 +202,11 @@ void ContactCollector::joinWhereMany() {
 /// Whether a point has several hits. Most have one, and then the large records need not be sorted.
 bool ContactCollector::haveSharedPoint() {
   points_.clear();
-  for (const Found& found : found_) points_.push_back((std::uint32_t(found.role) << 31) | std::uint32_t(found.point));
+  const double start = motion_->times[span_.first], end = motion_->times[span_.last];
+  for (const Found& found : found_) {
+    const bool is_only = !is_divided_ && found.contact.enter == start && found.contact.exit == end;
+    if (!is_only) points_.push_back((std::uint32_t(found.role) << 31) | std::uint32_t(found.point));
+  }
   CancelTicks<1024> cancel;
   std::sort(points_.begin(), points_.end(), [&](std::uint32_t a, std::uint32_t b) {
     cancel.check();

@@ -84,7 +84,8 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  std::vector<std::uint32_t> points_;  // of found_: role and point
+  bool is_divided_ = false;            // a point may have a hit on each of several chords or in several parts
+  std::vector<std::uint32_t> points_;  // of found_ that may have several hits: role and point
   std::vector<Peak> peaks_;            // per interval
   std::vector<Isometry3d> X_CF_;       // per chord end: pose of the field's body
   std::vector<Isometry3d> X_CG_;       // the same for a part, in one block
