@@ -28,8 +28,9 @@ std::optional<HalfSpace> nearestFace(const Primitive& primitive, const Vector3d&
 
 bool SmoothPieceReader::readWay(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
   if (!primitive_) {
-    if (!cells_.enter(from) || !cells_.holds(to)) return false;
-    readCell(from, to, piece);
+    CellLine line;
+    if (!cells_.enter(from, to, line)) return false;
+    readCell(line, piece);
     return true;
   }
   // Where a linear function is the largest of several at both ends, it is so in between.
@@ -40,22 +41,22 @@ bool SmoothPieceReader::readWay(const Vector3d& from, const Vector3d& to, Smooth
 }
 
 bool SmoothPieceReader::readPiece(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
-  const Vector3d middle = 0.5 * (from + to);
   if (!primitive_) {
-    if (!cells_.enter(middle)) return false;
-    readCell(from, to, piece);
+    CellLine line;
+    if (!cells_.enterMiddle(from, to, line)) return false;
+    readCell(line, piece);
     return true;
   }
-  const std::optional<HalfSpace> face = nearestFace(*primitive_, middle);
+  const std::optional<HalfSpace> face = nearestFace(*primitive_, 0.5 * (from + to));
   if (face) readPlane(*face, from, to, piece);
   return face.has_value();
 }
 
-void SmoothPieceReader::readCell(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) const {
-  const Vector3d u_from = cells_.local(from), u_to = cells_.local(to);
-  piece.distance = cellCubic(cells_.corners(), u_from, u_to, 0.0);
-  piece.gradient_first = trilinearGradient(cells_.corners(), u_from) / cells_.side();
-  piece.gradient_last = trilinearGradient(cells_.corners(), u_to) / cells_.side();
+void SmoothPieceReader::readCell(const CellLine& line, SmoothPiece& piece) const {
+  const double per_side = 1.0 / cells_.side();
+  piece.distance = cellCubic(cells_.corners(), line.from, line.to, 0.0);
+  piece.gradient_first = per_side * trilinearGradient(cells_.corners(), line.from);
+  piece.gradient_last = per_side * trilinearGradient(cells_.corners(), line.to);
 }
 
 }  // namespace sdf_ccd

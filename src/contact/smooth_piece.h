@@ -27,7 +27,7 @@ class SmoothPieceReader {
   bool readPiece(const Vector3d& from, const Vector3d& to, SmoothPiece& piece);
 
  private:
-  void readCell(const Vector3d& from, const Vector3d& to, SmoothPiece& piece) const;
+  void readCell(const CellLine& line, SmoothPiece& piece) const;
 
   CellReader& cells_;
   const Primitive* primitive_;

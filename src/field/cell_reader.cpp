@@ -17,20 +17,40 @@ CellReader::CellReader(const DistanceField& field)
 bool CellReader::enter(const Vector3d& p_F) {
   if (primitive_) return false;
   const Vector3d g = inLattice(p_F);
-  if (holdsLattice(g)) {
-    u_ = (g - low_) / side_;
-    return true;
-  }
-  return box_.contains(p_F) && (grid_ ? enterCell(g) : enterLeaf(g));
+  if (!enterLattice(p_F, g)) return false;
+  u_ = inCell(g);
+  return true;
 }
 
-bool CellReader::holdsLattice(const Vector3d& g) const {
+/// Moves to the cell (or leaf) that holds the point, and reads its corners unless it is the current one.
+/// @param g  the point in cells (or units of the adaptive grid) from the origin.
+/// @return false if the point is outside the grid or in a cell without corner values.
+bool CellReader::enterLattice(const Vector3d& p_F, const Vector3d& g) {
+  return holds(g) || (box_.contains(p_F) && (grid_ ? enterCell(g) : enterLeaf(g)));
+}
+
+bool CellReader::holds(const Vector3d& g) const {
   const Vector3d from_low = g - low_;
   return (from_low.array() >= 0.0).all() && (from_low.array() < side_).all();
 }
 
-Vector3d CellReader::local(const Vector3d& p_F) const {
-  return withinCell((inLattice(p_F) - low_) / side_);
+Vector3d CellReader::inCell(const Vector3d& g) const {
+  return withinCell((g - low_) * per_side_);
+}
+
+bool CellReader::enter(const Vector3d& from_F, const Vector3d& to_F, CellLine& line) {
+  if (primitive_) return false;
+  const Vector3d from = inLattice(from_F), to = inLattice(to_F);
+  if (!enterLattice(from_F, from) || !holds(to)) return false;
+  line = {inCell(from), inCell(to)};
+  return true;
+}
+
+bool CellReader::enterMiddle(const Vector3d& from_F, const Vector3d& to_F, CellLine& line) {
+  const Vector3d middle_F = 0.5 * (from_F + to_F);
+  if (primitive_ || !enterLattice(middle_F, inLattice(middle_F))) return false;
+  line = {inCell(inLattice(from_F)), inCell(inLattice(to_F))};
+  return true;
 }
 
 bool CellReader::enterCell(const Vector3d& g) {
@@ -40,8 +60,7 @@ bool CellReader::enterCell(const Vector3d& g) {
   if (slot == SparseGrid::kFar) return false;
   corners_ = grid_->cellCorners(slot, cell - GridShape::kBrick * brick);
   low_ = cell.cast<double>();
-  side_ = 1.0;
-  u_ = withinCell(g - low_);
+  side_ = per_side_ = 1.0;
   return true;
 }
 
@@ -51,7 +70,7 @@ bool CellReader::enterLeaf(const Vector3d& g) {
   corners_ = adaptive_->corners(block);
   low_ = block.low.cast<double>();
   side_ = block.side;
-  u_ = withinCell((g - low_) / side_);
+  per_side_ = 1.0 / side_;  // exact: sides are powers of two
   return true;
 }
 
