@@ -89,6 +89,13 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   return impl_->run(motion, request);
 }
 
+/// When the cycle's time is used up. A time that is too long for the clock has no end.
+Monitor::Impl::Clock::time_point Monitor::Impl::endOf(const CycleRequest& request, Clock::time_point start) {
+  constexpr double kAYear = 3e7;  // [s]
+  if (!(request.max_time > 0.0 && request.max_time < kAYear)) return Clock::time_point::max();
+  return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.max_time));
+}
+
 const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = Clock::now();
   validate(motion, shape, "cycle motion");
@@ -97,7 +104,7 @@ const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequ
     takeSpans(motion);
     takeSkipped(request);
     checkDue(motion, request, start);
-    if (request.max_time == 0.0 || secondsSince(start) < request.max_time) measureSoon(motion);
+    measureSoon(motion, endOf(request, start));
     schedule->settle(motion, checkers);
   } catch (...) {
     forget();
@@ -170,10 +177,7 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   const std::vector<DuePair>& due = schedule->due();
   if (due.empty()) return;
   bodies->take(motion, result.pairs, due);
-  if (request.max_time > 0.0)
-    return checkInTime(
-        motion, request,
-        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request.max_time)));
+  if (request.max_time > 0.0) return checkInTime(motion, request, endOf(request, start));
   const auto checkRange = [&](std::size_t first, std::size_t last) {
     std::unique_ptr<PairMemory> taken = memory->take();
     for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);
@@ -190,9 +194,10 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
 }
 
 /// Uses a cycle without a due pair to measure one that would be due soon: otherwise many may be due at the same time.
-void Monitor::Impl::measureSoon(const CycleMotion& motion) {
+void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point until) {
   const int pair = schedule->soon();
   if (pair < 0 || !schedule->due().empty()) return;
+  const CancelScope scope(until);
   const auto i = static_cast<std::size_t>(pair);
   queue.assign(1, {0.0F, pair});
   bodies->take(motion, result.pairs, queue);
@@ -201,6 +206,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion) {
   try {
     clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
   } catch (const std::exception&) {  // the cycle's results are complete without it
+  } catch (const Cancelled&) {
   }
   memory->giveBack(std::move(taken));
   schedule->raiseSoon(clearance);

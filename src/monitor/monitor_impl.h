@@ -22,9 +22,10 @@ struct Monitor::Impl {
   const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
   void takeSpans(const CycleMotion& motion);
   void takeSkipped(const CycleRequest& request);
+  static Clock::time_point endOf(const CycleRequest& request, Clock::time_point start);
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
-  void measureSoon(const CycleMotion& motion);
+  void measureSoon(const CycleMotion& motion, Clock::time_point until);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
   bool checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
                   PairMemory& pair_memory);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cancel_moments.h"
+#include "oracle/contact_case.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
@@ -67,6 +68,35 @@ TEST(CancelPair, EndsSoonAfterItsDeadline) {
   });
   EXPECT_GE(took, 0.05);
   EXPECT_LT(took, 0.05 + kSoon * slowness());
+}
+
+/// In a cycle without a due pair, one that would be due soon is measured. The cycle's results are complete without it.
+TEST(CancelPair, DoesNotEndACycleThatOnlyMeasures) {
+  const auto scene = twoBalls();
+  // How many cycles of an approach pass before the pair is due or, cancelled, ends one.
+  const auto cyclesBefore = [&](bool cancelled, const CycleRequest& request) {
+    const auto approach = [](int i) {
+      constexpr double kStep = 1.0 / 8192.0;  // [m], so that cycles join without rounding
+      const double x = 0.5 - kStep * i;
+      return cycle(1e-3, {still(Isometry3d::Identity(), 2), {translation({x, 0, 0}), translation({x - kStep, 0, 0})}});
+    };
+    Monitor monitor(scene, soft());
+    monitor.run(approach(0), request);
+    const std::atomic<bool> flag{cancelled};
+    const CancelScope scope(flag);
+    int i = 1;
+    try {
+      while (i < 1000 && monitor.run(approach(i), request).checked == 0) ++i;
+    } catch (const Cancelled&) {
+    }
+    return i;
+  };
+  CycleRequest no_time_to_measure;
+  no_time_to_measure.max_time = 1e-9;
+  const int until_due = cyclesBefore(false, no_time_to_measure);
+  EXPECT_GT(until_due, 10);
+  EXPECT_LT(until_due, 1000);
+  EXPECT_EQ(cyclesBefore(true, {}), until_due);
 }
 
 }  // namespace
