@@ -162,17 +162,14 @@ void ContactTracker::update(const ObservedCycle& cycle) {
   listUnreported();
   ++cycle_;
   touches_.clear();
-  if (cycle.result.verdict != Verdict::kClear) {
-    for (std::size_t i = 0; i < groups_.of_pair.size(); ++i) {
-      const PairResult& pair = cycle.result.pairs[i];
-      if (pair.span.empty()) continue;
-      for (std::size_t k = 0; k < pair.intervals.size(); ++k)
-        touches_.push_back({groups_.of_pair[i], pair.intervals[k].enter, static_cast<int>(i), static_cast<int>(k)});
-    }
-    std::sort(touches_.begin(), touches_.end(), [](const TouchInterval& a, const TouchInterval& b) {
-      return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
-    });
+  for (const int pair : cycle.result.not_clear) {
+    const std::vector<Interval>& intervals = cycle.result.pairs[pair].intervals;
+    for (std::size_t k = 0; k < intervals.size(); ++k)
+      touches_.push_back({groups_.of_pair[pair], intervals[k].enter, pair, static_cast<int>(k)});
   }
+  std::sort(touches_.begin(), touches_.end(), [](const TouchInterval& a, const TouchInterval& b) {
+    return std::tie(a.group, a.enter, a.pair, a.interval) < std::tie(b.group, b.enter, b.pair, b.interval);
+  });
   const auto timeOf = [&](double t) { return cycle.origin + toTime(t); };
   for (auto first = touches_.begin(); first != touches_.end();) {
     // The intervals that meet are of one contact.

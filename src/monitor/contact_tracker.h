@@ -58,7 +58,7 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 /// if the two meet, even if that had ended. One that lies before the last one has ended, and the last one continues.
 /// Earlier messages are not corrected.
 ///
-/// The cost of a cycle grows with its contacts: in a CLEAR cycle only existing contacts are visited. Memory is
+/// The cost of a cycle grows with the pairs that are not CLEAR and with the existing contacts. Memory is
 /// allocated only if a pair touches for the first time, or more pairs touch at a time than ever before.
 class ContactTracker {
  public:

@@ -57,6 +57,7 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
   last_due.reserve(pairs);
   queue.reserve(pairs);
   waited.assign(pairs, 0);
+  result.not_clear.reserve(pairs);
   shape.pairs = pairs;
   for (const Body& body : scene->bodies) {
     shape.bodies.push_back(body.name);
@@ -237,7 +238,7 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
 
 void Monitor::Impl::summarise(std::size_t end) {
   CycleSummary summary(result, end);
-  for (const DuePair& due : schedule->due()) summary.add(result.pairs[static_cast<std::size_t>(due.pair)]);
+  for (const DuePair& due : schedule->due()) summary.add(due.pair);
   ErrorBound worst;
   if (schedule->worstSkipped() >= 0) {
     worst = errorOf(schedule->worstSkipped());

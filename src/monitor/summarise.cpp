@@ -9,6 +9,7 @@ CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(resul
   result.verdict = Verdict::kClear;
   result.error_bound = result.contact_error = 0.0;
   result.error = {};
+  result.not_clear.clear();
   result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = 0;
 }
 
@@ -18,13 +19,15 @@ void CycleSummary::take(const ErrorBound& error) {
   result_.error_bound = error.total();
 }
 
-void CycleSummary::add(const PairResult& pair) {
+void CycleSummary::add(int index) {
+  const PairResult& pair = result_.pairs[static_cast<std::size_t>(index)];
   if (pair.span.empty()) {
     if (pair.span.last < end_) ++result_.delayed;
     return;
   }
   any_ = true;
   result_.verdict = std::max(result_.verdict, pair.verdict);
+  if (pair.verdict != Verdict::kClear) result_.not_clear.push_back(index);
   if (pair.verdict == Verdict::kNotChecked) {
     ++result_.not_checked;
     return;
@@ -42,6 +45,7 @@ void CycleSummary::addSkipped(int count, const ErrorBound& error) {
 }
 
 void CycleSummary::finish() {
+  std::sort(result_.not_clear.begin(), result_.not_clear.end());
   // Delayed pairs have not been checked over some of the time.
   const bool is_open = !any_ || result_.delayed > 0;
   if (is_open && result_.verdict == Verdict::kClear) result_.verdict = Verdict::kNotChecked;
@@ -49,7 +53,7 @@ void CycleSummary::finish() {
 
 void summarise(CycleResult& result) {
   CycleSummary summary(result, std::numeric_limits<std::size_t>::max());
-  for (const PairResult& pair : result.pairs) summary.add(pair);
+  for (std::size_t pair = 0; pair < result.pairs.size(); ++pair) summary.add(static_cast<int>(pair));
   summary.finish();
 }
 
@@ -61,6 +65,7 @@ void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result) 
     unchecked.reason = pair.reason;
     unchecked.span = {0, 1};
     unchecked.clearance = -1.0;
+    result.not_clear.push_back(static_cast<int>(result.pairs.size()));
     result.pairs.push_back(unchecked);
     ++result.not_checked;
   }

@@ -5,14 +5,15 @@
 
 namespace sdf_ccd {
 
-/// Accumulates a cycle's verdict, error bound and counts from its pairs.
+/// Accumulates a cycle's verdict, error bound and counts from its pairs, and lists those that are not clear.
 class CycleSummary {
  public:
-  /// @param result  receives the summary; its pairs are not read.
+  /// @param result  receives the summary; its pairs are read as they are added.
   /// @param end  the motion's last waypoint: a pair whose empty span is there is done, not delayed.
   CycleSummary(CycleResult& result, std::size_t end);
 
-  void add(const PairResult& pair);
+  /// @param pair  index in the result, each at most once and in any order.
+  void add(int pair);
 
   /// Adds pairs that are clear without a test. @param error  the largest of their error bounds.
   void addSkipped(int count, const ErrorBound& error);

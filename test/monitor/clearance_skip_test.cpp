@@ -56,10 +56,14 @@ TEST(ClearanceSkip, GivesTheVerdictsOfTesting) {
     const CycleResult &a = skipping.run(motion, {}), &b = testing.run(motion, {});
     ASSERT_EQ(b.skipped, 0);
     skipped += a.skipped;
+    std::vector<int> not_clear;
     for (std::size_t p = 0; p < a.pairs.size(); ++p) {
       ASSERT_EQ(a.pairs[p].verdict, b.pairs[p].verdict) << "cycle " << i << ", pair " << p;
-      near += b.pairs[p].verdict != Verdict::kClear;
+      if (b.pairs[p].verdict != Verdict::kClear) not_clear.push_back(static_cast<int>(p));
     }
+    ASSERT_EQ(a.not_clear, not_clear) << "cycle " << i;
+    ASSERT_EQ(b.not_clear, not_clear) << "cycle " << i;
+    near += static_cast<int>(not_clear.size());
   }
   EXPECT_GT(skipped, 600);
   EXPECT_GT(near, 50);

@@ -5,6 +5,26 @@
 namespace sdf_ccd {
 namespace {
 
+TEST(Summarise, ListsPairsThatAreNeitherClearNorDelayed) {
+  CycleResult result;
+  for (const Verdict verdict : {Verdict::kContact, Verdict::kClear, Verdict::kNotChecked, Verdict::kUncertain}) {
+    for (const WaypointSpan& span : {WaypointSpan{0, 0}, {0, 1}}) {
+      PairResult& pair = result.pairs.emplace_back();
+      pair.verdict = verdict;
+      pair.span = span;
+    }
+  }
+  result.not_clear = {3};
+  summarise(result);
+  EXPECT_EQ(result.not_clear, (std::vector<int>{1, 5, 7}));
+  CycleSummary in_any_order(result, 1);
+  for (const int pair : {7, 4, 1, 5}) in_any_order.add(pair);
+  in_any_order.finish();
+  EXPECT_EQ(result.not_clear, (std::vector<int>{1, 5, 7}));
+  addUnchecked({{0, 1, "why"}}, result);
+  EXPECT_EQ(result.not_clear, (std::vector<int>{1, 5, 7, 8}));
+}
+
 TEST(Summarise, WhatIsUncheckedIsNotClear) {
   CycleResult result;
   result.verdict = Verdict::kClear;

@@ -96,6 +96,7 @@ struct PairResult {
 /// What a cycle says about all pairs.
 struct CycleResult {
   std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
+  std::vector<int> not_clear;              ///< indices of those that are neither CLEAR nor delayed, increasing
   Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
                                            ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
   double error_bound = 0.0;                ///< largest of the pairs checked [m]

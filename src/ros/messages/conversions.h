@@ -67,10 +67,9 @@ template <class IsListed>
 void setPairContacts(const CycleResult& result, const CycleContext& cycle, const IsListed& isListed,
                      std::vector<PairContact>& messages) {
   std::size_t count = 0;
-  const std::size_t pairs = result.verdict == Verdict::kClear ? 0 : result.pairs.size();
-  for (std::size_t i = 0; i < pairs; ++i) {
+  for (const int i : result.not_clear) {
     const PairResult& pair = result.pairs[i];
-    if (pair.verdict == Verdict::kClear || pair.span.empty() || !isListed(pair)) continue;
+    if (!isListed(pair)) continue;
     if (count == messages.size()) messages.emplace_back();
     setPairContact(pair, cycle, messages[count++]);
   }

@@ -197,7 +197,8 @@ MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fi
 
 void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message) {
   Wrench sum_W;
-  for (const PairResult& pair : loop.result().pairs) {
+  for (const int i : loop.result().not_clear) {
+    const PairResult& pair = loop.result().pairs[i];
     if (pair.body_a == body) sum_W += pair.on_a_W;
     if (pair.body_b == body) sum_W += pair.on_b_W;
   }

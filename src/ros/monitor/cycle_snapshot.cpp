@@ -18,6 +18,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   result_.not_checked = result.not_checked;
   result_.delayed = result.delayed;
   result_.run_time = result.run_time;
+  result_.not_clear = result.not_clear;
   result_.pairs.resize(result.pairs.size());
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     const PairResult& pair = result.pairs[i];
