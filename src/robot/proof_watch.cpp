@@ -76,9 +76,11 @@ ProofWatch::ProofWatch(const std::vector<UnreachablePair>& pairs, const SceneDes
     return next;
   };
   for (const UnreachablePair& pair : pairs) {
-    pairs_.push_back({watch(pair.body_a, pair.ball_a), watch(pair.body_b, pair.ball_b), &pair});
-    if (pair.X_AB) join(pairs_.back());
-    (pair.X_AB ? any_joined_ : any_apart_) = true;
+    const bool is_joined = pair.X_AB.has_value();
+    pairs_.push_back({watch(pair.body_a, pair.ball_a), watch(pair.body_b, pair.ball_b),
+                      pair.ball_a.radius + pair.ball_b.radius, is_joined, &pair});
+    if (is_joined) join(pairs_.back());
+    (is_joined ? any_joined_ : any_apart_) = true;
   }
   for (const Watched& body : watched_) {
     const double size = (body.X_GB * body.ball.center).norm() + body.ball.radius;
@@ -106,10 +108,10 @@ const std::vector<char>& ProofWatch::contradicted(const CycleMotion& motion, con
     const bool are_joined = !any_joined_ || areAllJoined(motion, k);
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const Pair& pair = pairs_[p];
-      const std::optional<Isometry3d>& X_AB = pair.pair->X_AB;
-      if ((X_AB && are_joined) || k <= spans[p].first || k > spans[p].last || contradicted_[p]) continue;
+      if (pair.is_joined ? are_joined : areFarApart(pair)) continue;  // nearly always
+      if (k <= spans[p].first || k > spans[p].last || contradicted_[p]) continue;
       if (!areKnown(*pair.pair, motion)) continue;
-      if (!X_AB) {
+      if (!pair.is_joined) {
         contradicted_[p] = mayMeet(pair, motion, k);
       } else {
         const std::size_t a = watched_[pair.a].body, b = watched_[pair.b].body;
@@ -124,6 +126,7 @@ void ProofWatch::place(const CycleMotion& motion, std::size_t waypoint) {
   for (Watched& body : watched_) {
     body.p_W_before = body.p_W;
     body.p_W = motion.pose(body.body, waypoint) * body.ball.center;
+    body.travel = (body.p_W - body.p_W_before).norm();
   }
 }
 
@@ -139,15 +142,22 @@ bool ProofWatch::areAllJoined(const CycleMotion& motion, std::size_t waypoint) c
   });
 }
 
+/// Whether two bodies are beyond each other's reach at a waypoint by more than they have moved to there. Saves most
+/// pairs the roots and divisions of mayMeet().
+bool ProofWatch::areFarApart(const Pair& pair) const {
+  const Watched &a = watched_[pair.a], &b = watched_[pair.b];
+  const double near = pair.reach + a.travel + b.travel;
+  return (b.p_W - a.p_W).squaredNorm() > near * near;
+}
+
 /// Whether two bodies come nearer to each other than the URDF's joints allow, on the way to a waypoint or there.
 bool ProofWatch::mayMeet(const Pair& pair, const CycleMotion& motion, std::size_t waypoint) const {
   const Watched &a = watched_[pair.a], &b = watched_[pair.b];
-  const double reach = pair.pair->ball_a.radius + pair.pair->ball_b.radius;
   const Vector3d d = b.p_W - a.p_W;
   const double distance = distanceFromOrigin(b.p_W_before - a.p_W_before, d);
-  if (distance > reach) return false;
+  if (distance > pair.reach) return false;
   const Step step{motion, waypoint};
-  if (d.norm() > reach && distance + step.deviation(a, b) > reach) return false;
+  if (d.norm() > pair.reach && distance + step.deviation(a, b) > pair.reach) return false;
   // An object may be out of reach though the balls meet, as that of a floor is wide.
   return !isApart(a, b, step) && !isApart(b, a, step);
 }

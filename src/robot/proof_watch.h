@@ -26,17 +26,20 @@ class ProofWatch {
   const std::vector<char>& contradicted(const CycleMotion& motion, const std::vector<WaypointSpan>& spans);
 
  private:
-  /// A body of pairs.
+  /// A body of pairs. Its ball's centre moves from one waypoint to the next.
   struct Watched {
     std::size_t body;
     BoundingBall ball;
     std::size_t group;  // first one of those that are rigidly joined to it
     Isometry3d X_GB = Isometry3d::Identity();
     std::vector<GeometryDescription> boxes = {};  // that contain an object of the world; empty for links
-    Vector3d p_W_before = Vector3d::Zero(), p_W = Vector3d::Zero();  // the ball's centre at two waypoints
+    Vector3d p_W_before = Vector3d::Zero(), p_W = Vector3d::Zero();
+    double travel = 0.0;  // the distance between these [m]
   };
   struct Pair {
     std::size_t a, b;  // in watched_
+    double reach;      // sum of the balls' radii [m]
+    bool is_joined;
     const UnreachablePair* pair;
   };
   struct Step;  // from one waypoint to the next
@@ -44,6 +47,7 @@ class ProofWatch {
   void join(const Pair& pair);
   void place(const CycleMotion& motion, std::size_t waypoint);
   bool areAllJoined(const CycleMotion& motion, std::size_t waypoint) const;
+  bool areFarApart(const Pair& pair) const;
   bool mayMeet(const Pair& pair, const CycleMotion& motion, std::size_t waypoint) const;
   bool isApart(const Watched& object, const Watched& link, const Step& step) const;
 
