@@ -10,7 +10,13 @@ constexpr std::size_t kMaxBehind = 1000;  // a late transform is inserted only b
 }  // namespace
 
 ros::Time before(const ros::Time& time, const ros::Duration& duration) {
-  return time.toNSec() > static_cast<std::uint64_t>(duration.toNSec()) ? time - duration : ros::Time();
+  constexpr std::uint64_t kPerSecond = 1000000000;
+  const std::uint64_t end = time.toNSec(), length = static_cast<std::uint64_t>(duration.toNSec());
+  if (end <= length) return {};
+  ros::Time start;  // not time - duration, which takes several divisions, for every transform
+  start.sec = static_cast<std::uint32_t>((end - length) / kPerSecond);
+  start.nsec = static_cast<std::uint32_t>((end - length) % kPerSecond);
+  return start;
 }
 
 void TfEdge::record(const TfPose& pose, const TfKeep& keep, TfCounts& counts) {
