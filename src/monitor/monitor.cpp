@@ -121,7 +121,7 @@ void Monitor::Impl::takeSpans(const CycleMotion& motion) {
   const WaypointSpan whole{0, motion.times.size() - 1};
   const bool all_whole = schedule->isAllWhole();
   if (all_whole && last_waypoint == whole.last) return;
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) result.pairs[i].span = all_whole ? whole : motion.spans[i];
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) result.pairs[i].span = motion.span(i);
   last_waypoint = all_whole ? whole.last : 0;
 }
 

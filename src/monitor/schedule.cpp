@@ -19,7 +19,8 @@ Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
 }
 
 bool Schedule::isWhole(const CycleMotion& motion, std::size_t pair) const {
-  return motion.spans.empty() || (motion.spans[pair].first == 0 && motion.spans[pair].last + 1 == motion.times.size());
+  const WaypointSpan span = motion.span(pair);
+  return span.first == 0 && span.last + 1 == motion.times.size();
 }
 
 void Schedule::findWhole(const CycleMotion& motion) {

@@ -61,7 +61,7 @@ class Motion {
     for (std::size_t body = 0; body < joints_.size(); ++body) {
       ASSERT_EQ(motion.missing[body], "");
       double worst = 0.0;
-      for (std::size_t k = motion.spans[body].first; k < motion.spans[body].last; ++k) {
+      for (std::size_t k = motion.span(body).first; k < motion.span(body).last; ++k) {
         const ScrewMotion screw(motion.X_WB[body][k], motion.X_WB[body][k + 1]);
         for (int i = 0; i <= kDense; ++i) {
           const double share = double(i) / kDense;

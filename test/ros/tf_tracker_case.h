@@ -22,8 +22,8 @@ class TfTrackerTest : public ::testing::Test {
   }
 
   /// Start and end of the pair's span in the current cycle [s].
-  double spanStart(int pair) const { return spanTime(cycle_.motion.spans[pair].first); }
-  double spanEnd(int pair) const { return spanTime(cycle_.motion.spans[pair].last); }
+  double spanStart(int pair) const { return spanTime(cycle_.motion.span(pair).first); }
+  double spanEnd(int pair) const { return spanTime(cycle_.motion.span(pair).last); }
   double spanTime(std::size_t waypoint) const {
     return (cycle_.origin + ros::Duration(cycle_.motion.times[waypoint])).toSec();
   }

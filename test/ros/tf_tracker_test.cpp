@@ -184,6 +184,15 @@ TEST_F(TfTrackerTest, ALateFrameDelaysOnlyItsOwnPairsAndIsCaughtUpOn) {
   for (const std::string& missing : cycle_.motion.missing) EXPECT_EQ(missing, "");
 }
 
+TEST_F(TfTrackerTest, PairsThatGoOnTogetherHaveNoSpans) {
+  sendBoth(10.0);
+  ASSERT_EQ(next(10.0), Step::kWaiting);
+  sendBoth(10.1);
+  ASSERT_EQ(next(10.1), Step::kCycle);
+  EXPECT_TRUE(cycle_.motion.spans.empty());
+  EXPECT_GE(cycle_.motion.spans.capacity(), 3u) << "they may need some in a later cycle, which must not allocate";
+}
+
 TEST_F(TfTrackerTest, PairsThatAreBehindGoOnWhereNothingElseComes) {
   for (int i = 0; i <= 3; ++i) {
     send(stampedTransform("world", "hand", 10.0 + 0.1 * i, 0.1 * i));

@@ -44,6 +44,9 @@ struct CycleMotion {
   const Isometry3d& pose(std::size_t body, std::size_t time) const {
     return X_WB[body][std::min(time, X_WB[body].size() - 1)];
   }
+
+  /// The part of the motion to check a pair over.
+  WaypointSpan span(std::size_t pair) const { return spans.empty() ? WaypointSpan{0, times.size() - 1} : spans[pair]; }
 };
 
 /// How closely samples follow a motion whose twists are not constant.

@@ -250,15 +250,15 @@ void TfTracker::boundJerks(double start, double end, std::vector<double>& jerk) 
 void TfTracker::setSpans(TrackedCycle& cycle) const {
   const std::vector<double>& times = cycle.motion.times;
   std::vector<WaypointSpan>&spans = cycle.motion.spans, &watched = cycle.watched;
-  if (are_together_) {
-    spans.assign(checked_pairs_, {0, times.size() - 1});
+  spans.clear();
+  spans.reserve(checked_pairs_);  // now, so that a later cycle with a frame that lags behind does not allocate
+  if (are_together_) {            // then no spans are needed
     return watched.assign(pairs_.size() - checked_pairs_, {0, times.size() - 1});
   }
   const auto waypointAt = [&](const ros::Time& time) {
     const auto waypoint = std::lower_bound(times.begin(), times.end(), (time - cycle.origin).toSec());
     return static_cast<std::size_t>(waypoint - times.begin());
   };
-  spans.clear();
   watched.clear();
   WaypointSpan span;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
