@@ -86,6 +86,32 @@ TEST(TrianglePair, CrossingTrianglesCrossWhereverTheyAreDisplaced) {
   EXPECT_GT(crossing, 400);
 }
 
+/// A narrow triangle whose normal is mostly rounding, and an edge far from where its two long edges meet: on one side
+/// of the triangle's plane, or through it.
+TEST(TrianglePair, EdgesBesideNarrowTrianglesDoNotPierceThem) {
+  Random random(6);
+  const auto height = [](const Corners& t, const Vector3d& p) {
+    const Triangle3r e = exact(t);
+    return (e[1] - e[0]).cross(e[2] - e[0]).dot(p.cast<Real>() - e[0]);
+  };
+  const auto uniform = [&](double low, double high) { return test::uniform(random, low, high); };
+  constexpr double kError = 4e-12;
+  long pierced = 0;
+  for (int trial = 0; trial < 100000; ++trial) {
+    const Isometry3d X = test::pose(random, 3.0, 0.0);
+    const double width = std::pow(10.0, uniform(-10.5, -3.0)), middle = uniform(0.5, 1.0);
+    const Vector3d corner = X * Vector3d(middle, width, 0.0);
+    const Corners t = {Vector3d::Zero(), X * Vector3d(1.0, 0.0, 0.0), corner};
+    const double along = uniform(0.5, 0.9) * middle, low = std::pow(10.0, uniform(-12.0, -4.0));
+    const Vector3d foot(along, 0.4 * width * along / middle, 0.0), up = Vector3d::UnitZ();
+    const Vector3d p = X * (foot + low * up), q = X * (foot + 0.1 * up), below = X * (foot - 0.1 * up);
+    const bool is_beside = height(t, p) * height(t, q) > 0.0L;
+    ASSERT_FALSE(is_beside && piercedPoint(t, p, q, kError)) << width << " m wide, " << low << " m below the edge";
+    pierced += width > 1e-7 && piercedPoint(t, below, q, kError);
+  }
+  EXPECT_GT(pierced, 30000);
+}
+
 TEST(TrianglePair, LanesAreAsOneByOne) {
   Random random(4);
   for (int trial = 0; trial < 5000; ++trial) {

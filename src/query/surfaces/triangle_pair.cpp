@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/infinity.h"
 
@@ -38,6 +39,14 @@ std::optional<Vector3d> footOn(const Corners& t, const Vector3d& p) {
   return t[0] + v * ab + w * ac;
 }
 
+/// The corner at which the two shorter edges meet: of a narrow triangle they tell the normal best.
+int acrossLongestEdge(const Corners& t) {
+  const double a = (t[2] - t[1]).squaredNorm(), b = (t[0] - t[2]).squaredNorm(), c = (t[1] - t[0]).squaredNorm();
+  return a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2);
+}
+
+constexpr double kTilt = 8.0 * std::numeric_limits<double>::epsilon();  // see piercedPoint()
+
 }  // namespace
 
 ClosestPair closestPoints(const Corners& a, const Corners& b) {
@@ -59,11 +68,14 @@ double gapAlong(const Vector3d& axis, const Corners& a, const Corners& b) {
 }
 
 std::optional<Vector3d> piercedPoint(const Corners& t, const Vector3d& p, const Vector3d& q, double error) {
-  const Vector3d cross = areaNormal(t);
+  const int first = acrossLongestEdge(t);
+  const Vector3d &from = t[first], u = t[(first + 1) % 3] - from, v = t[(first + 2) % 3] - from, cross = u.cross(v);
   const double area2 = cross.norm();
   if (!(area2 > 0.0)) return std::nullopt;
+  const double farthest = std::max({u.norm(), v.norm(), (p - from).norm(), (q - from).norm()});
+  error += 2.0 * kTilt * u.norm() * v.norm() / area2 * farthest;
   const Vector3d normal = cross / area2;
-  const double at_p = normal.dot(p - t[0]), at_q = normal.dot(q - t[0]);
+  const double at_p = normal.dot(p - from), at_q = normal.dot(q - from);
   if (!(at_p * at_q < 0.0) || !(std::min(std::abs(at_p), std::abs(at_q)) > error)) return std::nullopt;
   const double across = std::abs(at_p - at_q);
   const Vector3d point = p + std::abs(at_p) / across * (q - p);
