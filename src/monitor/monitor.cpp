@@ -90,7 +90,7 @@ const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& r
   return impl_->run(motion, request);
 }
 
-/// When the cycle's time is used up. A time that is too long for the clock has no end.
+/// When the cycle's time is used up; never, if it is longer than the clock counts.
 Monitor::Impl::Clock::time_point Monitor::Impl::endOf(const CycleRequest& request, Clock::time_point start) {
   constexpr double kAYear = 3e7;  // [s]
   if (!(request.max_time > 0.0 && request.max_time < kAYear)) return Clock::time_point::max();
@@ -213,12 +213,27 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
   schedule->raiseSoon(clearance);
 }
 
+/// Whether the pair's motion is known in this cycle. If not, its checker tells why.
+bool Monitor::Impl::isMotionKnown(const CycleMotion& motion, const DuePair& due) const {
+  const PairResult& pair = result.pairs[static_cast<std::size_t>(due.pair)];
+  const auto isKnown = [&](int index) {
+    const auto body = static_cast<std::size_t>(index);
+    return scene->bodies[body].failure.empty() && (motion.missing.empty() || motion.missing[body].empty()) &&
+           bodies->problem(index).empty();
+  };
+  return !pair.span.empty() && isKnown(pair.body_a) && isKnown(pair.body_b);
+}
+
 /// All threads take pairs from one queue, so that the most urgent pairs are done first. The first one takes as long as
-/// it needs, so that each is decided some time.
+/// it needs, so that each is decided some time. Pairs whose motion is not known need no time: they come last, and have
+/// waited as long as before when it is known again.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
   queue = schedule->due();
+  const auto unknown =
+      std::partition(queue.begin(), queue.end(), [&](const DuePair& due) { return isMotionKnown(motion, due); });
+  const auto known = static_cast<std::size_t>(unknown - queue.begin());
   const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
-  std::sort(queue.begin(), queue.end(), [&](const DuePair& a, const DuePair& b) {
+  std::sort(queue.begin(), unknown, [&](const DuePair& a, const DuePair& b) {
     if (waitedFor(a) != waitedFor(b)) return waitedFor(a) > waitedFor(b);
     return a.left != b.left ? a.left < b.left : a.pair < b.pair;
   });
@@ -229,7 +244,7 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
       const auto i = static_cast<std::size_t>(queue[k].pair);
       if (!checkUntil(k > 0 ? until : Clock::time_point::max(), queue[k], motion, request, *taken))
         checkers[i].postpone(motion, *bodies, schedule->leftClearance(queue[k]), *taken, result.pairs[i]);
-      waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
+      if (k < known) waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
     }
     taken->deadline = Clock::time_point::max();
     memory->giveBack(std::move(taken));

@@ -25,6 +25,7 @@ struct Monitor::Impl {
   static Clock::time_point endOf(const CycleRequest& request, Clock::time_point start);
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
+  bool isMotionKnown(const CycleMotion& motion, const DuePair& due) const;
   void measureSoon(const CycleMotion& motion, Clock::time_point until);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
   bool checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
@@ -44,7 +45,7 @@ struct Monitor::Impl {
   CycleResult result;
   std::vector<int> last_due;                // pairs
   std::vector<DuePair> queue;               // pairs to test, those that have waited longest first
-  std::vector<std::uint32_t> waited;        // per pair: number of consecutive cycles in which it was postponed
+  std::vector<std::uint32_t> waited;        // per pair: number of cycles in which it was postponed since its last test
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle

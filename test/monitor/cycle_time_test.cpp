@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
@@ -166,6 +167,43 @@ TEST_F(CycleTime, IsRecoveredFrom) {
         EXPECT_EQ(pair.verdict, least > 0.0 ? Verdict::kClear : Verdict::kContact);
       }
     }
+  }
+}
+
+/// Transforms of some bodies come in every third cycle, or are missing in the others. Their pairs wait for their turn
+/// as all others do, although these are postponed more often.
+TEST_F(CycleTime, WhatComesLateIsTestedSomeTime) {
+  for (const bool is_missing : {false, true}) {
+    Monitor monitor(scene_, {});
+    CycleRequest request;
+    request.max_time = kNoTime;
+    const std::size_t pairs = scene_->pairs.size();
+    std::vector<int> tested(pairs, 0);
+    for (int i = 0; i < 12 * int(pairs); ++i) {
+      std::vector<std::vector<Isometry3d>> poses;  // all of them overlap
+      for (int ball = 0; ball < kBalls; ++ball)
+        poses.push_back(
+            {translation({1e-3 * ball, 1e-3 * (i % 2), 0}), translation({1e-3 * ball, 1e-3 - 1e-3 * (i % 2), 0})});
+      CycleMotion motion = cycle(0.1, poses);
+      const bool is_late = i % 3 > 0;
+      motion.spans.assign(pairs, {0, 1});
+      motion.missing.resize(kBalls);
+      for (std::size_t p = 0; p < pairs; ++p)
+        if (is_late && !is_missing && scene_->pairs[p].body_b == kBalls - 1) motion.spans[p] = {0, 0};
+      if (is_late && is_missing) motion.missing[kBalls - 1] = "late";
+      const CycleResult& result = monitor.run(motion, request);
+      for (std::size_t p = 0; p < pairs; ++p) tested[p] += result.pairs[p].verdict == Verdict::kContact;
+    }
+    EXPECT_GE(*std::min_element(tested.begin(), tested.end()), 3) << is_missing;
+  }
+}
+
+TEST_F(CycleTime, AnyAmountOfItIsEnoughTime) {
+  for (const double time : {1e9, 1e10, 1e300, std::numeric_limits<double>::infinity()}) {
+    Monitor monitor(scene_, {});
+    CycleRequest request;
+    request.max_time = time;
+    EXPECT_EQ(monitor.run(next(), request).postponed, 0) << time;
   }
 }
 
