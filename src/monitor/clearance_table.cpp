@@ -171,12 +171,14 @@ struct ScanArrays {
   const float* soon;
 };
 
-/// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget;
-/// there is none without motion.
+/// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget,
+/// or where more is used up than that, times what is used up, of which kUpwards adds more to the displacement; there is
+/// none without motion.
 template <class Numbers>
 SDF_CCD_INLINE Numbers budgetAfter(const Numbers& budget, const Numbers& travel) {
   const Numbers none{};
-  return (budget - travel) - (travel > none ? budget * kUnit : none);
+  const Numbers size = budget < none ? -budget : budget;
+  return (budget - travel) - (travel > none ? size * kUnit : none);
 }
 
 /// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
