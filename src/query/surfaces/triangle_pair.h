@@ -36,7 +36,8 @@ double gapAlong(const Vector3d& axis, const Corners& a, const Corners& b);
 /// e = 8 ε |u| |v| / |u × v|: differences of corners and their cross product have errors of less than 3 ε |u| |v|, and
 /// the dot product adds 2 ε. With D the largest distance of the other four points from c, heights are then off by e D,
 /// the point where pq crosses the plane by e D L / (s + t), and its distances from the triangle's edges by 2 e D.
-/// Adding 2 e D to m accounts for all of them.
+/// Adding 2 e D to m accounts for all of them. `error` has to include the rounding of the coordinates themselves, 4 ε
+/// of their size.
 std::optional<Vector3d> piercedPoint(const Corners& triangle, const Vector3d& p, const Vector3d& q, double error);
 
 /// Where an edge of one triangle crosses the other one, as above.
