@@ -75,6 +75,10 @@ bool MarkerOutputs::isWorldDue() const {
 
 void MarkerOutputs::finish() {
   is_finishing_ = true;
+  if (is_unchecked_) {  // others waited; their cycles are not drawn any more, so that there is soon room
+    worker_->next();
+    if (next(false)) worker_->handOver();
+  }
   worker_.reset();
 }
 
