@@ -21,15 +21,17 @@ constexpr std::size_t kNamed = 6;  // at most so many pairs are named in a warni
 /// "2 pairs of links, the deepest first: l_wheel - base (46.3 mm), mast - base (within 1 mm)".
 std::string listOf(std::vector<OverlappingPair> pairs, const Scene& scene) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.touches, -a.depth) < std::pair(b.touches, -b.depth);
+    return std::pair(a.overlap, -a.depth) < std::pair(b.overlap, -b.depth);
   });
   std::vector<std::string> texts;
   for (const OverlappingPair& pair : pairs) {
     texts.push_back(pairName(scene, scene.pairs[static_cast<std::size_t>(pair.pair)]));
-    const std::string depth = pair.touches ? "within 1 mm" : pair.depth > 0.0 ? lengthText(pair.depth) : "";
+    const bool touches = pair.overlap == Overlap::kTouching;
+    const std::string depth = touches ? "within 1 mm" : pair.depth > 0.0 ? lengthText(pair.depth) : "";
     if (!depth.empty()) texts.back() += " (" + depth + ")";
   }
-  return counted(pairs.size(), "pair") + " of links, " + (pairs.size() > 1 ? "the deepest first: " : "") +
+  const bool have_order = pairs.size() > 1 && pairs.front().overlap != Overlap::kOpen;
+  return counted(pairs.size(), "pair") + " of links" + (have_order ? ", the deepest first: " : ": ") +
          firstOf(texts, kNamed);
 }
 
@@ -40,6 +42,13 @@ constexpr double kTouch = 1e-3;  // how close surfaces are that joints hold toge
 bool touch(const PairResult& pair) {
   return (pair.verdict == Verdict::kUncertain && pair.error.total() <= kTouch) ||
          (pair.verdict == Verdict::kClear && pair.clearance <= kTouch);
+}
+
+/// @param verdict  as judged at rest: CONTACT, UNCERTAIN or NOT_CHECKED.
+Overlap overlapOf(Verdict verdict) {
+  return verdict == Verdict::kContact     ? Overlap::kCertain
+         : verdict == Verdict::kUncertain ? Overlap::kTouching
+                                          : Overlap::kOpen;
 }
 
 /// In which states a pair was seen.
@@ -84,15 +93,22 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
     if (pair.verdict == Verdict::kContact) return Verdict::kContact;
     return touch(pair) && robot.neighbours(a, b) ? Verdict::kUncertain : Verdict::kClear;
   };
+  // Or NOT_CHECKED, if nothing tells.
+  const auto judgeAtRest = [&](const PairResult& pair) {
+    const Verdict verdict = judge(pair);
+    return verdict == Verdict::kClear && pair.verdict == Verdict::kUncertain ? Verdict::kNotChecked : verdict;
+  };
   std::vector<OverlappingPair> found;
-  const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions(), judge);
+  const std::vector<PairAtRest> at_rest = pairsIn(robot, scene, tested, JointPositions(), judgeAtRest);
   std::vector<std::size_t> open;  // of scene.pairs
   for (std::size_t k = 0; k < tested.size(); ++k) {
     if (at_rest[k].verdict == Verdict::kClear) continue;
     const PlannedPair& pair = scene.pairs[tested[k]];
     const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
-    const bool touches = at_rest[k].verdict == Verdict::kUncertain;
-    found.push_back({static_cast<int>(tested[k]), touches ? 0.0 : at_rest[k].depth, touches, false});
+    const Overlap overlap = overlapOf(at_rest[k].verdict);
+    found.push_back(
+        {static_cast<int>(tested[k]), overlap, overlap == Overlap::kCertain ? at_rest[k].depth : 0.0, false});
+    if (overlap == Overlap::kOpen) continue;
     const bool adjacent = robot.adjacent(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
     if (states > 0 && !adjacent && JointSampler::unboundedBetween(robot, a, b).empty()) open.push_back(tested[k]);
   }
@@ -132,23 +148,28 @@ std::vector<OverlappingPair> overlappingPairs(const RobotModel& robot, const Sce
 void applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene) {
   constexpr std::size_t kStates = 200;
   const std::string states = "in all of " + std::to_string(kStates) + " random states";
-  std::vector<OverlappingPair> left_out, checked, kept;
+  std::vector<OverlappingPair> left_out, checked, kept, open;
   std::vector<std::string> reasons(scene.pairs.size());
   for (const OverlappingPair& pair : overlappingPairs(robot, scene, rule.leave_out ? kStates : 0)) {
+    if (pair.overlap == Overlap::kOpen) {
+      open.push_back(pair);
+      continue;
+    }
     const PlannedPair& planned = scene.pairs[static_cast<std::size_t>(pair.pair)];
     const bool stays = matchesAny(rule.kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
     (stays ? kept : pair.always ? left_out : checked).push_back(pair);
     if (stays || !pair.always) continue;
     std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
-    reason = pair.touches ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm " + states
-                          : overlapReason(pair.depth, "overlap or, as neighbours, come within 1 mm " + states);
+    reason = pair.overlap == Overlap::kTouching
+                 ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm " + states
+                 : overlapReason(pair.depth, "overlap or, as neighbours, come within 1 mm " + states);
     reason += ", which is no proof for others";
   }
   const std::string overlap = "overlap, or as neighbours come within 1 mm, ";
   if (!left_out.empty())
     scene.warnings.push_back("left out, as they " + overlap + "at rest and " + states +
-                             ", which is no proof for others (depth at rest): " + listOf(left_out, scene) +
-                             "; list them in checked_pairs to check them");
+                             ", which is no proof for others (depth at rest of the deepest point found): " +
+                             listOf(left_out, scene) + "; list them in checked_pairs to check them");
   if (!checked.empty())
     scene.warnings.push_back(overlap + "where all joints are at rest, and are checked: " + listOf(checked, scene) +
                              "; allowed_pairs leaves them out");
@@ -156,6 +177,9 @@ void applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& s
     scene.warnings.push_back(overlap +
                              "where all joints are at rest, and are checked as checked_pairs, or the SRDF's " +
                              "enable_collisions, says: " + listOf(kept, scene));
+  if (!open.empty())
+    scene.warnings.push_back("may overlap where all joints are at rest, as far as can be told, and are checked: " +
+                             listOf(open, scene));
   leaveOut(reasons, scene);
 }
 

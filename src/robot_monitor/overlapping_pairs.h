@@ -9,17 +9,26 @@
 
 namespace sdf_ccd {
 
-/// Two links whose shapes overlap with all joints at rest: at zero, or at the nearest limit.
-struct OverlappingPair {
-  int pair = -1;       ///< in Scene::pairs
-  double depth = 0.0;  ///< of the deepest point found [m]; 0 if only the surfaces show the overlap, or it only touches
-  bool touches = false;  ///< does not overlap; neighbours whose surfaces come within 1 mm
-  bool always = false;   ///< also in every random state of the joints between them
+/// How two links are with all joints at rest: at zero, or at the nearest limit.
+enum class Overlap {
+  kCertain,   ///< their shapes overlap
+  kTouching,  ///< neighbours whose surfaces come within 1 mm
+  kOpen       ///< they may overlap: surfaces coincide or nearly so, or the inside of one is not known
 };
 
-/// Overlapping pairs of links of the scene, and neighbours (RobotModel::neighbours()) whose surfaces come within 1 mm.
+/// Two links that overlap, touch, or may overlap at rest.
+struct OverlappingPair {
+  int pair = -1;  ///< in Scene::pairs
+  Overlap overlap = Overlap::kCertain;
+  double depth = 0.0;   ///< if certain: of the deepest point found [m]; 0 if only the surfaces show the overlap
+  bool always = false;  ///< overlaps or touches also in every random state of the joints between them
+};
+
+/// Pairs of links of the scene that overlap or may overlap, and neighbours (RobotModel::neighbours()) whose surfaces
+/// come within 1 mm.
 /// Neighbours that come so close in some states and enter each other by more than that in others are not `always`.
-/// Pairs with a planar, floating or unlimited prismatic joint between them, and adjacent links, are never `always`.
+/// Pairs with a planar, floating or unlimited prismatic joint between them, adjacent links, and pairs that only may
+/// overlap are never `always`.
 /// @param scene  bodies whose names are links; others are skipped.
 /// @param states  number of random states, by JointSampler, until a pair is found apart; with 0, no pair is `always`. A
 /// pair that is apart in one of a hundred states is classified as `always` in 13 % of cases with 200 states, one apart

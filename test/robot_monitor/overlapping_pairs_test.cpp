@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "model/name_pair.h"
+#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
@@ -114,9 +116,13 @@ TEST(OverlappingPairs, AreLeftOutAndTold) {
       "is no proof for others";
   EXPECT_NEAR(depthAfter("overlap at rest, ", reason), 30.0, 2.0) << reason;
   EXPECT_EQ(reason.substr(reason.find(" mm")), others);
-  ASSERT_EQ(cart.scene.warnings.size(), 2u);
+  ASSERT_EQ(cart.scene.warnings.size(), 3u);
   EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30 mm)"), std::string::npos) << cart.scene.warnings[0];
   EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
+  // The hanging arm ends where the ghost begins.
+  EXPECT_EQ(cart.scene.warnings[2],
+            "may overlap where all joints are at rest, as far as can be told, and are checked: 1 pair of links: "
+            "ghost - arm");
   EXPECT_NE(planTable(cart.scene).find(cart.scene.warnings[0]), std::string::npos);
   const std::string table = planTable(cart.scene);
   EXPECT_NEAR(depthAfter("random states, which is no proof for others: base - wheel (", table), 30.0, 2.0) << table;
@@ -254,6 +260,28 @@ TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
   };
   EXPECT_EQ(pairsOf(0.7), 1U);  // the car's front reaches 1.1 m
   EXPECT_EQ(pairsOf(2.0), 0U);
+}
+
+/// Two shapes on sliders, with a shape on a third link between them that touches neither.
+std::vector<OverlappingPair> overlapOf(const std::string& first, const std::string& second, std::string& name) {
+  const RobotModel robot("<robot name='sliders'>" + box("base", "0.01 0.01 0.01", "0 0 9") + first + second +
+                         joint("base", "a", "prismatic", "0 0 0") + joint("base", "b", "prismatic", "0 0 0") +
+                         "</robot>");
+  std::vector<std::string> warnings;
+  const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+  const Scene scene = buildScene(description, planScene(description), optionsForContacts());
+  std::vector<OverlappingPair> found = overlappingPairs(robot, scene, 0);
+  for (const OverlappingPair& pair : found) name = pairName(scene, scene.pairs[std::size_t(pair.pair)]);
+  return found;
+}
+
+/// All of their surfaces coincide, so that no point of one is inside the other.
+TEST(OverlappingPairs, CopiesOfALinkMayOverlap) {
+  std::string name;
+  const std::vector<OverlappingPair> found = overlapOf(box("a", "1 1 1"), box("b", "1 1 1"), name);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.front().overlap, Overlap::kOpen);
+  EXPECT_EQ(name, "a - b");
 }
 
 }  // namespace
