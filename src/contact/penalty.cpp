@@ -184,8 +184,10 @@ class Integrator {
   /// Adds piece_.
   void addSmooth(const ChordPoint& point, double from, double to) {
     const double length = to - from;
+    // Where two pieces meet, an adaptive field may jump: the place has to be inside this one.
+    constexpr double kInside = 1e-9;
     const CubicMinimum lowest = minimumOf(piece_.distance);
-    const double s = from + lowest.u * length;
+    const double s = from + std::clamp(lowest.u, kInside, 1.0 - kInside) * length;
     if (deepest_.offerMinimum(s, lowest.value) && (lowest.u == 0.0 || lowest.u == 1.0))
       end_ = {s, lowest.u == 0.0 ? piece_.gradient_first : piece_.gradient_last};
     if (!request_.impulse) return;
@@ -220,7 +222,7 @@ class Integrator {
     if (depth.depth >= input_.field.band() - input_.field.errorBound())
       depth.reach = reachOf(point, times, depth.depth);
     if (!request_.depth_errors) return depth;
-    depth.error = input_.field.sample(depth.p_F).error;
+    depth.error = depthError(input_.field, depth.p_F, depth.depth);
     depth.depth_lower_bound = depth.depth - depth.error;
     if (depth.depth > input_.field.band())
       depth.depth_lower_bound = std::max(depth.depth_lower_bound, -input_.field.bounds(depth.p_F).high);
@@ -285,6 +287,11 @@ void validate(const ContactOptions& options) {
   if (options.midpoint_intervals < 1)
     throw std::invalid_argument("contact: midpoint_intervals must be 1 or more, got " +
                                 std::to_string(options.midpoint_intervals));
+}
+
+double depthError(const DistanceField& field, const Vector3d& p_F, double depth) {
+  const FieldSample there = field.sample(p_F);
+  return there.error + std::abs(there.value + depth);
 }
 
 void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hits, const ContactOptions& options,

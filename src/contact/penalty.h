@@ -32,7 +32,7 @@ struct ContactInput {
 struct HitDepth {
   bool siblings = false;  ///< the whole contact belongs to siblings: the other members are not set
   double depth = 0.0;     ///< [m], positive inside, at a sampled point of the path; the maximum: leastDistance()
-  double error = 0.0;     ///< of the depth [m]: the field's error at p_F, larger beyond the band
+  double error = 0.0;     ///< of the depth [m]: depthError(), larger beyond the band
   double depth_lower_bound = 0.0;  ///< [m]; beyond the band tighter than depth − error
   /// Of a point that gets as deep as the field's band: upper bound of its depth during the hit [m], as values beyond
   /// the band do not tell where it is deepest; otherwise 0.
@@ -46,7 +46,7 @@ struct HitDepth {
 /// Outputs of integrateContact() other than depths.
 struct ContactRequest {
   bool impulse = true;
-  bool depth_errors = true;  ///< else `error`, which is field.sample(p_F).error, and depth_lower_bound are not set
+  bool depth_errors = true;  ///< else `error`, which is depthError(), and depth_lower_bound are not set
 };
 
 /// Impulses over all hits.
@@ -55,6 +55,10 @@ struct ContactImpulse {
   std::vector<HitDepth> depths;  ///< one per hit
   std::vector<double> breaks;    ///< scratch memory, reused from hit to hit
 };
+
+/// Error of the depth found at a point of a path [m]: that of the field there, and what the field's value there differs
+/// by. It does at the face between two cells of an adaptive field, where rounding decides which cell the point is in.
+double depthError(const DistanceField& field, const Vector3d& p_F, double depth);
 
 /// Integrates penalty force F = −k d N (N out of the field's body, d < 0 inside) and damping force −k_D v_rel over
 /// the hits (paper Eq. 3–11; signs as in design §3.6). Divide by the cycle's length for the average (Eq. 8, 9).

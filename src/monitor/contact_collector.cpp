@@ -252,7 +252,7 @@ bool ContactCollector::isDeeper(const Found& a, const Found& b) {
 
 /// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
 void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) {
-  if (found.field) point.depth_error = found.field->sample(found.p_F).error;
+  if (found.field) point.depth_error = depthError(*found.field, found.p_F, point.depth);
   point.depth_error = std::max(point.depth_error, reach - point.depth);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/curved_field.h"
+#include "field/adaptive/adaptive_grid.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field/build_field.h"
@@ -101,10 +102,41 @@ TEST(Penalty, WithoutErrorsAllElseIsTheSame) {
         EXPECT_EQ(a.depth, b.depth);
         EXPECT_EQ(a.p_C, b.p_C);
         EXPECT_EQ(a.normal_C, b.normal_C);
-        EXPECT_EQ(a.error, field.sample(b.p_F).error);
+        EXPECT_EQ(a.error, depthError(field, b.p_F, b.depth));
       }
     }
   }
+}
+
+/// An adaptive field jumps where cells of two sizes meet: a depth found in one of them has an error that the other one
+/// does not tell. Points move to and from places on the faces of cells.
+TEST(Penalty, DepthsOnTheFacesOfCellsHaveErrorsThatHold) {
+  const Vector3d half(4.0 / 64, 2.0 / 64, 1.0 / 64);
+  FieldOptions coarse;
+  coarse.max_error = 0.001;
+  coarse.cells.reset();
+  const DistanceField field = buildField(boxMesh(half), coarse);
+  const AdaptiveShape& shape = field.adaptive()->shape();
+  Random random(5);
+  int jumps = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const int stride = 1 << (i % 8);
+    Vector3d face = uniformIn(random, {-half, half});
+    face = shape.origin +
+           shape.unit() * stride * ((face - shape.origin) / (shape.unit() * stride)).array().round().matrix();
+    if (signedDistance(Box{half}, face) > -1e-4) continue;
+    const Vector3d beside = face + 0.003 * direction(random);
+    const bool ends = random() % 2;
+    const ContactCase moving{field, onePoint(Vector3d::Zero(), Vector3d::UnitZ()),
+                             oneChord(1.0, translation(ends ? beside : face), translation(ends ? face : beside))};
+    for (const HitDepth& found : moving.run(perArea()).depths) {
+      const double truth = -signedDistance(Box{half}, found.p_F);
+      EXPECT_LE(std::abs(found.depth - truth), found.error + 1e-12) << face.transpose();
+      EXPECT_LE(found.depth_lower_bound, truth + 1e-12) << face.transpose();
+      jumps += std::abs(found.depth - truth) > field.sample(found.p_F).error;
+    }
+  }
+  EXPECT_GT(jumps, 0) << "nothing tests the jumps";
 }
 
 }  // namespace
