@@ -106,6 +106,9 @@ void primitiveIntervals(const Primitive& primitive, const Segment& segment, cons
   }
   const double size = std::max(segment.start.lpNorm<Eigen::Infinity>(), segment.end.lpNorm<Eigen::Infinity>());
   const double touch = 4.0 * std::numeric_limits<double>::epsilon() * (size + std::abs(options.sigma));
+  // The distance is 1-Lipschitz: this far from both ends, the segment does not reach the isosurface.
+  const double reach = at_start + at_end - 2.0 * touch;
+  if (std::min(at_start, at_end) > touch && reach * reach > (segment.end - segment.start).squaredNorm()) return;
   double inside = at_start <= 0.0 ? 0.0 : at_end <= 0.0 ? 1.0 : nonPositiveParameter(f, touch);
   if (inside < 0.0) return;
   if (f.value(inside) > 0.0) {
