@@ -53,7 +53,6 @@ CollisionShape shapeOf(const Drop& drop, const TriangleMesh& mesh) {
 CollisionShape withoutTree(CollisionShape shape) {
   SphereTree::Node root = shape.tree.nodes.front();
   root.first_child = -1;
-  root.child_count = 0;
   shape.tree.nodes = {root};
   return shape;
 }

@@ -62,7 +62,6 @@ void flatten(CollisionShape& shape) {
   if (shape.tree.nodes.empty()) return;
   SphereTree::Node root = shape.tree.nodes.front();
   root.first_child = -1;
-  root.child_count = 0;
   shape.tree.nodes = {root};
 }
 

@@ -23,9 +23,8 @@ inline bool mayApproach(const DistanceField& field, const PointShell& shell, con
     bool below(const SphereTree::Node& node) const {
       cancel.check();
       if (!near(node.ball().center, node.radius)) return false;
-      for (int i = 0; node.first_child >= 0 && i < node.child_count; ++i)
-        if (below(tree.nodes[node.first_child + i])) return true;
-      for (int i = node.begin; node.first_child < 0 && i < node.end; ++i)
+      if (!node.isLeaf()) return below(tree.nodes[node.first_child]) || below(tree.nodes[node.first_child + 1]);
+      for (int i = node.begin; i < node.end; ++i)
         if (near(shell.points[i], 0.0)) return true;
       return false;
     }

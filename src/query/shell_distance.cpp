@@ -18,15 +18,13 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
     const SphereTree::Node& node = tree.nodes[static_cast<std::size_t>(pending.back())];
     pending.pop_back();
     if (field.lowerBound(X_FP * node.ball().center) - node.radius > cut()) continue;
-    if (node.first_child >= 0) {
-      const auto first = static_cast<std::ptrdiff_t>(pending.size());
-      for (int k = 0; k < node.child_count; ++k) pending.push_back(node.first_child + k);
+    if (!node.isLeaf()) {
+      const int first = node.first_child, second = first + 1;
       // The last one is examined next: the one whose centre is nearest.
-      const auto nearer = [&](int a, int b) {
-        return field.lowerBound(X_FP * tree.nodes[a].ball().center) < field.lowerBound(X_FP * tree.nodes[b].ball().center);
-      };
-      const auto best = std::min_element(pending.begin() + first, pending.end(), nearer);
-      std::iter_swap(best, pending.end() - 1);
+      const auto bound = [&](int child) { return field.lowerBound(X_FP * tree.nodes[child].ball().center); };
+      const int near = bound(second) < bound(first) ? second : first;
+      pending.push_back(near == first ? second : first);
+      pending.push_back(near);
       continue;
     }
     for (int i = node.begin; i < node.end; ++i) {

@@ -42,8 +42,7 @@ class ShellSearch {
         result_(result),
         work_(searchWork()),
         // A point's roots are those of the interpolated field; the spheres' test is about the true distance.
-        sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma},
-               tree.nodes[0].ball()),
+        sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma}, tree.nodes[0].ball()),
         points_(field, shell, options, result) {}
 
   bool done() const { return options_.any && result_.touches(); }
@@ -70,12 +69,6 @@ class ShellSearch {
   }
 
  private:
-  /// Whether testing a node's points costs less than testing the spheres below it.
-  bool isSmall(const SphereTree::Node& node) const {
-    constexpr std::int32_t kFewPoints = 16;
-    return node.first_child < 0 || (sides_.inVectors() && node.end - node.begin <= kFewPoints);
-  }
-
   void testNode() {
     const std::int32_t i = work_.stack.back();
     work_.stack.pop_back();
@@ -102,7 +95,7 @@ class ShellSearch {
     const SphereTree::Node& node = nodes_[i];
     if (side == SweptSide::kOutside || node.begin == node.end) return;
     if (side == SweptSide::kInside) return addInside(node.begin, node.end);
-    if (isSmall(node)) {
+    if (node.isLeaf()) {
       work_.pending.push_back({node.begin, node.end});
       // A shell may be larger than the caches.
       prefetch(shell_.points.data() + node.begin, static_cast<std::size_t>(node.end - node.begin));
@@ -114,10 +107,10 @@ class ShellSearch {
   /// Pushes descendants of a node onto the stack: as many as fill a vector, if spheres are tested in vectors.
   void divide(const SphereTree::Node& node) {
     constexpr int kLevels = 3;
-    const SphereTree::Node *first = nodes_ + node.first_child, *last = first + node.child_count;
+    const SphereTree::Node *first = nodes_ + node.first_child, *last = first + 2;
     for (int level = 1; level < kLevels && sides_.inVectors(); ++level) {
-      if (std::any_of(first, last, [this](const SphereTree::Node& below) { return isSmall(below); })) break;
-      last = nodes_ + last[-1].first_child + last[-1].child_count;
+      if (std::any_of(first, last, [](const SphereTree::Node& below) { return below.isLeaf(); })) break;
+      last = nodes_ + last[-1].first_child + 2;
       first = nodes_ + first->first_child;
     }
     prefetch(first, static_cast<std::size_t>(last - first));
@@ -224,8 +217,9 @@ double clearance(const DistanceField& field, const SphereTree& tree, const Point
       bound = std::min(bound, low);
       continue;
     }
-    if (node.first_child >= 0) {
-      for (std::int32_t i = node.child_count; i-- > 0;) stack.push_back(node.first_child + i);
+    if (!node.isLeaf()) {
+      stack.push_back(node.first_child + 1);
+      stack.push_back(node.first_child);
       continue;
     }
     for (std::int32_t i = node.begin; i < node.end; ++i) {

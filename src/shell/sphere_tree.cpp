@@ -10,7 +10,9 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::int32_t kPointsPerLeaf = 8;
+// As many points are tested together in a vector as fast as the spheres of smaller nodes, which would take more memory
+// than the points.
+constexpr std::int32_t kPointsPerLeaf = 16;
 
 class Builder {
  public:
@@ -29,7 +31,6 @@ class Builder {
       if (parent.end - parent.begin <= kPointsPerLeaf) continue;
       const std::int32_t middle = split(parent.begin, parent.end);
       tree.nodes[i].first_child = static_cast<std::int32_t>(tree.nodes.size());
-      tree.nodes[i].child_count = 2;
       tree.nodes.push_back(node(parent.begin, middle));
       tree.nodes.push_back(node(middle, parent.end));
     }
@@ -48,7 +49,7 @@ class Builder {
     const double radius = farthest(center.cast<double>(), begin, end).second;
     // Half a step more than necessary at least: distances computed elsewhere round differently.
     const float up = std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity());
-    return {center, radius > 0.0 ? up : 0.0F, begin, end, -1, 0};
+    return {center, radius > 0.0 ? up : 0.0F, begin, end, -1};
   }
 
   /// Halves the points along the longest side of their box; ties between equal coordinates are broken by the index.

@@ -148,7 +148,6 @@ TEST(ShellQuery, EqualsLinearScanWhereOneNodeHoldsAllPoints) {
     most = std::max(most, scene.shell.size());
     SphereTree root{{scene.tree.nodes[0]}};
     root.nodes[0].first_child = -1;
-    root.nodes[0].child_count = 0;
     for (const double reach : {0.0, 0.01, 1.0}) {  // at rest, short paths, long paths
       ChordPath path;
       path.chords.emplace_back();

@@ -39,17 +39,17 @@ void expectSound(const SphereTree& tree, const PointShell& shell) {
     const SphereTree::Node& node = tree.nodes[n];
     for (int i = node.begin; i < node.end; ++i) {
       ASSERT_LE((shell.points[i] - node.ball().center).norm(), node.ball().radius);
-      if (node.first_child < 0) ++in_leaves[i];
+      if (node.isLeaf()) ++in_leaves[i];
     }
-    if (node.first_child < 0) {
-      EXPECT_LE(node.end - node.begin, 8);
-      EXPECT_EQ(node.child_count, 0);
+    if (node.isLeaf()) {
+      EXPECT_LE(node.end - node.begin, 16);
       continue;
     }
+    EXPECT_GT(node.end - node.begin, 16);
     EXPECT_EQ(node.first_child, next_child) << "children of neighbours are neighbours";
-    next_child += node.child_count;
+    next_child += 2;
     int next = node.begin;
-    for (int child = node.first_child; child < node.first_child + node.child_count; ++child) {
+    for (int child = node.first_child; child < node.first_child + 2; ++child) {
       EXPECT_EQ(tree.nodes[child].begin, next);
       next = tree.nodes[child].end;
     }

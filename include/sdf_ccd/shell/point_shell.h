@@ -48,8 +48,9 @@ struct SphereTree {
     float radius;        ///< about the rounded center, rounded up [m]
     std::int32_t begin;  ///< points [begin, end) of the shell lie below this node
     std::int32_t end;
-    std::int32_t first_child;  ///< children are consecutive; -1 for a leaf
-    std::int32_t child_count;
+    std::int32_t first_child;  ///< of two consecutive ones; -1 for a leaf
+
+    bool isLeaf() const { return first_child < 0; }
 
     /// The sphere in double precision.
     BoundingBall ball() const { return {center.cast<double>(), double(radius)}; }
