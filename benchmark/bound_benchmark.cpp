@@ -72,7 +72,9 @@ class FieldStudy {
       Isometry3d X_end = Isometry3d::Identity();
       X_end.translation() = segment.end - segment.start;
       const ChordPath path{{{0.0, 1.0, Isometry3d::Identity(), X_end, 0}}, 0.0};
-      const PointShell shell{{segment.start}, {Vector3f::UnitZ()}, {1.0F}, 0.0};
+      PointShell shell;
+      shell.origin = segment.start;
+      shell.add(segment.start, Vector3d::UnitZ(), 1.0F);
       std::vector<ShellHit> hits;
       for (const Interval& interval : segmentIntervals(field_, segment)) hits.push_back({0, 0, interval});
       if (hits.empty()) continue;

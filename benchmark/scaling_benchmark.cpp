@@ -19,14 +19,12 @@ namespace {
 
 constexpr int kThreads = 2;
 
-/// A shell of independent random points, with its sphere tree. Normals and areas are zero: the queries do not use them.
+/// A shell of independent random points, with its sphere tree. Queries use no normals or areas.
 struct PlainShell {
   PlainShell(const TriangleMesh& mesh, std::size_t points) {
     test::Random random(1);
     const precision::SurfaceSampler surface(mesh);
-    while (shell.points.size() < points) shell.points.push_back(surface(random));
-    shell.normals.assign(points, Vector3f::Zero());
-    shell.areas.assign(points, 0.0F);
+    while (shell.size() < points) shell.add(surface(random), Vector3d::UnitZ(), 0.0F);
     tree = buildSphereTree(shell);
   }
 

@@ -19,7 +19,8 @@ class Linear : public ShellSystem {
     ShellAnswer answer;
     for (std::size_t i = 0; i < count; ++i) {
       segments_.clear();
-      for (const Vector3d& p : subject_.shell.points) {
+      for (std::size_t k = 0; k < subject_.shell.size(); ++k) {
+        const Vector3d p = subject_.shell.point(k);
         segments_.push_back({pairs[i].X_FP_start * p, pairs[i].X_FP_end * p});
       }
       segmentIntervals(subject_.field, segments_.data(), segments_.size(), {0.0, SegmentMode::kAll}, found_);

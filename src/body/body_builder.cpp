@@ -128,10 +128,10 @@ class BodyBuilder {
 
   /// Of all geometry except half-spaces, which are inside no body.
   PointShell makeWitnesses() const {
-    PointShell all;
+    SampledPoints all;
     for (std::size_t i = 0; i < meshes_.size(); ++i) {
       if (isHalfSpace(description_.geometry[i])) continue;
-      const PointShell part =
+      const SampledPoints part =
           witnessPoints(meshes_[i] ? meshes_[i]->mesh : coarse(primitiveOf(description_.geometry[i])));
       all.covering_radius = part.covering_radius;
       all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
@@ -139,7 +139,7 @@ class BodyBuilder {
       for (const Vector3d& p_G : part.points) all.points.push_back(X_BG * p_G);
       for (const Vector3f& normal_G : part.normals) all.normals.push_back(X_BG.linear().cast<float>() * normal_G);
     }
-    return all;
+    return toShell(all);
   }
 
  private:
@@ -196,7 +196,8 @@ class BodyBuilder {
 BoundingBall surfaceBall(const Body& body) {
   if (body.shell->size() == 0) return motionBall(body);
   BoundingBall ball = boundingBall(body.shell);
-  if (std::isfinite(body.shell->covering_radius)) ball.radius += body.shell->covering_radius;
+  const double covering = body.shell->covering_radius;
+  ball.radius += std::isfinite(covering) ? covering : body.shell->position_error;
   return ball;
 }
 
@@ -220,8 +221,8 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   body.ball = surfaceBall(body);
   if (!needs.shell) return;
   report.shell_points = body.shell->size();
-  report.shell_bytes = body.shell->size() * (sizeof(Vector3d) + sizeof(Vector3f) + sizeof(float)) +
-                       body.tree->nodes.size() * sizeof(SphereTree::Node);
+  report.shell_bytes =
+      body.shell->size() * PointShell::kBytesPerPoint + body.tree->nodes.size() * sizeof(SphereTree::Node);
   report.gap = contactGap(body.shell, body.shell);
 }
 

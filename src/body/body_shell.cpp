@@ -4,6 +4,7 @@
 
 #include "sdf_ccd/common/cancel.h"
 #include "shell/contact_gap.h"
+#include "shell/sampled_points.h"
 
 namespace sdf_ccd {
 namespace {
@@ -24,7 +25,7 @@ double knownDepth(const std::vector<ShellPart>& parts, std::size_t own, const Ve
 /// Sets the radii of the union. A part whose points cover it as densely as edges are sampled consists of edges, and is
 /// flat: contact with it is within its covering radius of a point, plus the flatness of the other body only, whereas
 /// contactGap() adds twice the flatness of both.
-void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
+void setRadii(const std::vector<ShellPart>& parts, SampledPoints& all) {
   double covering = 0.0;
   all.edge_radius = 0.0;
   for (const ShellPart& part : parts) {
@@ -44,30 +45,36 @@ void setRadii(const std::vector<ShellPart>& parts, PointShell& all) {
 
 PointShell unionShell(const std::vector<ShellPart>& parts) {
   const CancelPoint cancel;
-  PointShell all;
+  SampledPoints all;
   setRadii(parts, all);
+  double part_error = 0.0;
   for (std::size_t own = 0; own < parts.size(); ++own) {
     const PointShell& shell = parts[own].shell;
+    part_error = std::max(part_error, shell.position_error);
     for (std::size_t i = 0; i < shell.size(); ++i) {
       cancel.check();
-      const Vector3d p_B = parts[own].X_BG * shell.points[i];
+      const Vector3d p_B = parts[own].X_BG * shell.point(i);
       const double depth = knownDepth(parts, own, p_B);
       if (depth > shell.covering_radius) continue;
       all.points.push_back(p_B);
-      all.normals.push_back(parts[own].X_BG.linear().cast<float>() * shell.normals[i]);
-      all.areas.push_back(depth > 0.0 ? 0.0F : shell.areas[i]);
+      all.normals.emplace_back((parts[own].X_BG.linear() * shell.normal(i)).cast<float>());
+      all.areas.push_back(depth > shell.position_error ? 0.0F : shell.areas[i]);
     }
   }
-  return all;
+  // About its own origin, a part that is alone is not rounded again, unless it is rotated.
+  PointShell shell = parts.size() == 1 ? toShell(all, parts[0].X_BG * parts[0].shell.origin) : toShell(all);
+  shell.position_error += part_error;
+  return shell;
 }
 
 BoundingBall boundingBall(const PointShell& shell) {
   AlignedBox3d box;
-  for (const Vector3d& p : shell.points) box.extend(p);
+  const std::vector<Vector3d> points = shell.points();
+  for (const Vector3d& p : points) box.extend(p);
   BoundingBall ball;
   if (box.isEmpty()) return ball;
   ball.center = box.center();
-  for (const Vector3d& p : shell.points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
+  for (const Vector3d& p : points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
   return ball;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "motion/chords.h"
+#include "sdf_ccd/shell/packed_normal.h"
 
 namespace sdf_ccd {
 
@@ -24,11 +25,11 @@ class ChordFrame {
 /// A shell point along one chord, frame F (paper Eq. 1).
 struct ChordPoint {
   const Chord& chord;
-  const Vector3f& normal_P;  ///< unit, out of the shell's body
-  Vector3d start;            ///< [m]
-  Vector3d step;             ///< [m], over the whole chord
+  PackedNormal normal_P;  ///< out of the shell's body
+  Vector3d start;         ///< [m]
+  Vector3d step;          ///< [m], over the whole chord
 
-  ChordPoint(const Chord& on, const Vector3d& p_P, const Vector3f& n_P)
+  ChordPoint(const Chord& on, const Vector3d& p_P, const PackedNormal& n_P)
       : chord(on), normal_P(n_P), start(on.X_FP_start * p_P), step(on.X_FP_end * p_P - start) {}
 
   double duration() const { return chord.t_end - chord.t_start; }  ///< [s]
@@ -37,7 +38,7 @@ struct ChordPoint {
 
   /// Minus the point's outward normal: out of the field's body where the two bodies touch.
   Vector3d inward(double s) const {
-    const Vector3d n_P = normal_P.cast<double>();
+    const Vector3d n_P = normal_P.vector();
     return -((1.0 - s) * (chord.X_FP_start.linear() * n_P) + s * (chord.X_FP_end.linear() * n_P)).normalized();
   }
 

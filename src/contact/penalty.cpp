@@ -82,7 +82,7 @@ class Integrator {
 
  private:
   ChordPoint pointOf(const ShellHit& hit) const {
-    return {input_.path.chords[hit.chord], input_.shell.points[hit.point], input_.shell.normals[hit.point]};
+    return {input_.path.chords[hit.chord], input_.shell.point(hit.point), input_.shell.normals[hit.point]};
   }
 
   double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }

@@ -12,12 +12,13 @@ namespace {
 /// A ball about the body's origin, which is the centre of the balls of all poses.
 BoundingBall ballAround(const CollisionShape& shape) {
   BoundingBall ball;
-  for (const Vector3d& p : shape.shell.points) ball.radius = std::max(ball.radius, p.norm());
+  const PointShell& shell = shape.shell;
+  for (const Vector3d& p : shell.points()) ball.radius = std::max(ball.radius, p.norm());
   if (shape.field) {
     const AlignedBox3d& box = shape.field->surfaceBox();
     const Vector3d reach = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs());
     // A box's corners are outside a sphere's surface; the points, with the gap between them, are a closer bound.
-    ball.radius = shape.shell.size() > 0 ? ball.radius + shape.shell.covering_radius : reach.norm();
+    ball.radius = shell.size() > 0 ? ball.radius + shell.covering_radius : reach.norm();
   }
   return ball;
 }

@@ -24,9 +24,9 @@ class EndContacts {
   PointContact operator()(const ShellHit* first, const ShellHit* last) const {
     const Chord& end = role_.path.chords.back();
     const int point = first->point;
-    const Vector3d p_F = end.X_FP_end * shell_.points[point];
-    const Vector3d r_P_F = end.X_FP_end.linear() * shell_.points[point];
-    const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normals[point].cast<double>());
+    const Vector3d p_F = end.X_FP_end * shell_.point(point);
+    const Vector3d r_P_F = end.X_FP_end.linear() * shell_.point(point);
+    const Vector3d inward_F = -(end.X_FP_end.linear() * shell_.normal(point));
     const double share = options_.stiffness_per == StiffnessPer::kArea ? double(shell_.areas[point]) : 1.0;
     const FieldValue at_end = field_.interpolate(p_F);
 
@@ -60,7 +60,7 @@ class EndContacts {
  private:
   Vector3d pointAt(const ShellHit& hit, double s) const {
     const Chord& chord = role_.path.chords[hit.chord];
-    const Vector3d& p_P = shell_.points[hit.point];
+    const Vector3d p_P = shell_.point(hit.point);
     return (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
   }
 

@@ -26,6 +26,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
   crosses_ = crosses;
   path_error_ = pair.error.chord + pair.error.root;
   certain_ = {};
+  position_error_ = 0.0;
   motion_ = &motion;
   span_ = pair.span;
   body_a_ = pair.body_a;
@@ -60,6 +61,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
   is_doubtful_ = role.field().inside_is_doubtful;
+  position_error_ = std::max(position_error_, role.shell().position_error);
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
@@ -114,7 +116,7 @@ bool ContactCollector::passesThrough(const DistanceField& field, const PairRole&
   for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
     ShellHit hit = query_.hits[h];
     hit.chord += static_cast<int>(first);
-    if (passesThroughMesh(field, path, role.shell().points[hit.point], hit, path_error_)) return true;
+    if (passesThroughMesh(field, path, role.shell().point(hit.point), hit, path_error_)) return true;
   }
   return false;
 }
@@ -147,7 +149,7 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
     if (certain && needsErrors(input.field) && depth.depth_lower_bound > certain_.depth)
-      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.points[hit.point]};
+      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.point(hit.point)};
     found_.push_back(found);
   }
   joinWhereMany();
@@ -177,7 +179,7 @@ bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) co
   if (!crosses_ && depth.depth > depth.error + path_error_) return false;
   const Chord& chord = input.path.chords[hits_[hit].chord];
   const double s = (depth.time - chord.t_start) / (chord.t_end - chord.t_start);
-  const Vector3d& p_P = input.shell.points[hits_[hit].point];
+  const Vector3d p_P = input.shell.point(hits_[hit].point);
   const Vector3d p_F = (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
   return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
 }
@@ -251,9 +253,9 @@ bool ContactCollector::isDeeper(const Found& a, const Found& b) {
 }
 
 /// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
-void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) {
+void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) const {
   if (found.field) point.depth_error = depthError(*found.field, found.p_F, point.depth);
-  point.depth_error = std::max(point.depth_error, reach - point.depth);
+  point.depth_error = std::max(point.depth_error, reach - point.depth) + position_error_;
 }
 
 /// Adds the deepest point of each interval.

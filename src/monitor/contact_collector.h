@@ -69,7 +69,7 @@ class ContactCollector {
   void joinWhereMany();
   static bool isDeeper(const Found& a, const Found& b);
   void addPeaks(PairResult& result);
-  static void setError(const Found& found, double reach, ContactPoint& point);
+  void setError(const Found& found, double reach, ContactPoint& point) const;
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
   bool needsErrors(const DistanceField& field) const;
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
@@ -96,8 +96,9 @@ class ContactCollector {
   std::size_t most_found_ = 0, most_intervals_ = 0;  // sizes at which the results are joined
   ContactImpulse impulse_;
   bool crosses_ = false;
-  double path_error_ = 0.0;   // [m]
-  bool is_doubtful_ = false;  // the inside of the role's field body is doubtful
+  double path_error_ = 0.0;      // [m]
+  double position_error_ = 0.0;  // the largest of the shells [m]
+  bool is_doubtful_ = false;     // the inside of the role's field body is doubtful
   CertainPoint certain_;
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;

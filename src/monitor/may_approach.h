@@ -25,7 +25,7 @@ inline bool mayApproach(const DistanceField& field, const PointShell& shell, con
       if (!near(node.ball().center, node.radius)) return false;
       if (!node.isLeaf()) return below(tree.nodes[node.first_child]) || below(tree.nodes[node.first_child + 1]);
       for (int i = node.begin; i < node.end; ++i)
-        if (near(shell.points[i], 0.0)) return true;
+        if (near(shell.point(static_cast<std::size_t>(i)), 0.0)) return true;
       return false;
     }
   };

@@ -238,7 +238,7 @@ bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is
     }
     const double low = std::min(nearest.value - nearest.error - gap, found.distance - found.error);
     found.distance = std::max(0.0, nearest.value);
-    found.error = std::max(nearest.error, found.distance - low);
+    found.error = std::max(nearest.error + p.shell->position_error, found.distance - low);
     const Vector3d on_p = X_WF * (part.X_BG * nearest.p_F);
     const double slope = nearest.gradient_F.norm();
     const Vector3d out_W = slope > 0.0 ? Vector3d(X_WF.linear() * (part.X_BG.linear() * (nearest.gradient_F / slope)))

@@ -65,12 +65,13 @@ bool PairRole::isOutsideAtEnd() const {
   const TriangleTree* surface = field_body_->doubtful.get();
   if (!surface) return true;
   CancelTicks<64> cancel;
-  return std::all_of(shell_->points.begin(), shell_->points.end(), [&](const Vector3d& p_P) {
+  const BoundingBall& ball = field_body_->ball;
+  for (std::size_t i = 0; i < shell_->size(); ++i) {
     cancel.check();
-    const Vector3d p_F = motion_.end() * p_P;
-    const BoundingBall& ball = field_body_->ball;
-    return (p_F - ball.center).norm() > ball.radius || surface->seesOutside(p_F);
-  });
+    const Vector3d p_F = motion_.end() * shell_->point(i);
+    if ((p_F - ball.center).norm() <= ball.radius && !surface->seesOutside(p_F)) return false;
+  }
+  return true;
 }
 
 bool PairRole::mayComeNearer(double distance) {

@@ -32,7 +32,7 @@ void PairRoles::setMotion(const SweptBodies& bodies, const WaypointSpan& span, M
     PairRole& role = roles_[i];
     role.setMotion(bodies, span, memory[i]);
     if (role.ballHoldsBody()) travel_ = std::min(travel_, role.motion().travel());
-    pose_error_ = std::max(pose_error_, role.motion().poseError());
+    pose_error_ = std::max(pose_error_, role.motion().poseError() + role.shell().position_error);
   }
 }
 

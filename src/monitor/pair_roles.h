@@ -24,7 +24,8 @@ class PairRoles {
   /// See PairRole::setMotion().
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span, Memory& memory);
 
-  /// Upper bounds of the relative displacement of the bodies' points and of the error of their poses [m].
+  /// Upper bounds of the relative displacement of the bodies' points, and of the error of these points from poses and
+  /// the shells' position errors [m].
   double travel() const { return travel_; }
   double poseError() const { return pose_error_; }
 

@@ -24,7 +24,7 @@ constexpr double kSpacing = 0.015;  // of the shell's points [box sides]
 /// surface. All points must start outside.
 double exactImpact(const ExactSurface& mesh, const PointShell& shell, const ScrewMotion& motion, double tolerance) {
   double first = 2.0;
-  for (const Vector3d& p : shell.points) {
+  for (const Vector3d& p : shell.points()) {
     const double speed = motion.velocity(0.0, p).norm();
     for (double t = 0.0; t < std::min(first, 1.0);) {
       const double distance = mesh.unsignedDistance(motion.pose(t) * p);
@@ -96,7 +96,7 @@ class ChordSystem {
 
 BoundingBall ballOf(const PointShell& shell, const Vector3d& middle) {
   BoundingBall ball{middle, 0.0};
-  for (const Vector3d& p : shell.points) ball.radius = std::max(ball.radius, (p - middle).norm());
+  for (const Vector3d& p : shell.points()) ball.radius = std::max(ball.radius, (p - middle).norm());
   return ball;
 }
 

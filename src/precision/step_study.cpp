@@ -31,8 +31,9 @@ RigidWorld pointOnGround(double zeta) {
   point.name = "point";
   point.mass = 1.0;
   point.inertia = Matrix3d::Identity();
-  point.shape =
-      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3f::UnitZ()}, {1.0F}, 0.0}));
+  PointShell shell;
+  shell.add(Vector3d::Zero(), -Vector3d::UnitZ(), 1.0F);
+  point.shape = std::make_shared<CollisionShape>(makeShape(shell));
   RigidWorld world;
   world.bodies = {ground, point};
   world.contact.stiffness_per = StiffnessPer::kPoint;

@@ -28,7 +28,7 @@ ShellDistance shellDistance(const DistanceField& field, const PointShell& shell,
       continue;
     }
     for (int i = node.begin; i < node.end; ++i) {
-      const Vector3d p_F = X_FP * shell.points[i];
+      const Vector3d p_F = X_FP * shell.point(static_cast<std::size_t>(i));
       if (field.lowerBound(p_F) > cut()) continue;
       const FieldSample sample = field.sample(p_F);
       low = std::min(low, sample.value - sample.error);

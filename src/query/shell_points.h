@@ -35,7 +35,7 @@ class ShellPoints {
 
   void query(std::int32_t point) {
     ++result_.points_tested;
-    const Segment segment = along(*chord_, shell_.points[point]);
+    const Segment segment = along(*chord_, shell_.point(static_cast<std::size_t>(point)));
     if (!batched_) return querySingly(point, segment);
     work_.points.push_back(point);
     work_.segments.push_back(segment);

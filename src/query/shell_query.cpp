@@ -98,7 +98,7 @@ class ShellSearch {
     if (node.isLeaf()) {
       work_.pending.push_back({node.begin, node.end});
       // A shell may be larger than the caches.
-      prefetch(shell_.points.data() + node.begin, static_cast<std::size_t>(node.end - node.begin));
+      prefetch(shell_.offsets.data() + node.begin, static_cast<std::size_t>(node.end - node.begin));
     } else {
       divide(node);
     }
@@ -142,7 +142,7 @@ class ShellSearch {
       PointRange& last = pending.back();
       const PointRange some{last.begin, std::min(last.end, last.begin + SphereGroup::kCapacity - group.size)};
       sorted.push_back(some);
-      for (std::int32_t p = some.begin; p < some.end; ++p) group.add(shell_.points[p], 0.0);
+      for (std::int32_t p = some.begin; p < some.end; ++p) group.add(shell_.point(static_cast<std::size_t>(p)), 0.0);
       last.begin = some.end;
       if (last.begin == last.end) pending.pop_back();
     }
@@ -223,7 +223,7 @@ double clearance(const DistanceField& field, const SphereTree& tree, const Point
       continue;
     }
     for (std::int32_t i = node.begin; i < node.end; ++i) {
-      nearest = std::min(nearest, field.lowerBound(X_FP * shell.points[i]));
+      nearest = std::min(nearest, field.lowerBound(X_FP * shell.point(static_cast<std::size_t>(i))));
     }
   }
   return std::min(bound, nearest);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sample_surface.h"
+#include "sampled_points.h"
 
 namespace sdf_ccd {
 
@@ -25,7 +26,7 @@ inline bool hasEdges(const ShellOptions& options) {
   return options.edge_gap > 0.0 && options.edge_gap < options.spacing;
 }
 
-/// As the public sampleSurface(), but with the given radii for edges.
-PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options, const EdgeSampling& edges);
+/// As the public sampleSurface(), but with the given radii for edges, before rounding.
+SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& options, const EdgeSampling& edges);
 
 }  // namespace sdf_ccd

@@ -98,7 +98,7 @@ double coveringRadius2(const TriangleMesh& mesh, const NearestPoint& nearest, do
 
 }  // namespace
 
-ShellMeasures measureShell(const TriangleMesh& mesh, const PointShell& shell, double scale) {
+ShellMeasures measureShell(const TriangleMesh& mesh, const SampledPoints& shell, double scale) {
   const NearestPoint nearest(shell);
   std::vector<Shares> shares(chunks(mesh));
   std::vector<double> farthest2(mesh.triangles.size());

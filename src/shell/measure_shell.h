@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "sampled_points.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
 
@@ -18,6 +18,6 @@ struct ShellMeasures {
 
 /// @param shell  one or more points.
 /// @param scale  approximate distance between points [m]: larger triangles are halved before the search for points.
-ShellMeasures measureShell(const TriangleMesh& mesh, const PointShell& shell, double scale);
+ShellMeasures measureShell(const TriangleMesh& mesh, const SampledPoints& shell, double scale);
 
 }  // namespace sdf_ccd

@@ -13,7 +13,7 @@ constexpr int kStackSize = 64;  // splits halve the count, so the tree is at mos
 
 }  // namespace
 
-NearestPoint::NearestPoint(const PointShell& shell) {
+NearestPoint::NearestPoint(const SampledPoints& shell) {
   const auto count = static_cast<std::int32_t>(shell.size());
   entries_.reserve(count);
   for (std::int32_t i = 0; i < count; ++i) entries_.push_back({shell.points[i], shell.normals[i].cast<double>(), i});

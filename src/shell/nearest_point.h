@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "geometry/trees/box_measures.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sampled_points.h"
 
 namespace sdf_ccd {
 
 /// A k-d tree over the points of a shell.
 class NearestPoint {
  public:
-  explicit NearestPoint(const PointShell& shell);
+  explicit NearestPoint(const SampledPoints& shell);
 
   struct Hit {
     std::int32_t index = -1;  ///< in the shell; -1 if there is no such point

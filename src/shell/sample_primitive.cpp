@@ -50,7 +50,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     // If the tessellation is finer than the shell, its vertices are not features that must be kept.
     flat.vertex_spacing = std::max(options.vertex_spacing, flat.spacing);
   }
-  PointShell shell = sampleSurface(tessellate(solid, curved ? deviation : options.spacing), flat, edges);
+  SampledPoints shell = samplePoints(tessellate(solid, curved ? deviation : options.spacing), flat, edges);
   double area = 0;
   for (const double share : shell.areas) area += share;
   for (std::size_t i = 0; i < shell.size(); ++i) {
@@ -62,7 +62,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
   shell.covering_radius += 2 * deviation;
   shell.edge_radius += deviation;
   shell.flatness += deviation;
-  return shell;
+  return toShell(shell);
 }
 
 struct Sample {

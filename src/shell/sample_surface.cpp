@@ -117,10 +117,10 @@ PointShell sampleSurface(const Solid& solid, const ShellOptions& options) {
     const double finest = hasEdges(options) ? options.edge_gap : options.spacing;
     thinned.vertex_spacing = std::max(options.vertex_spacing, kApart * finest);
   }
-  return sampleSurface(solid.boundary(), thinned, EdgeSampling(options));
+  return toShell(samplePoints(solid.boundary(), thinned, EdgeSampling(options)));
 }
 
-PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested, const EdgeSampling& sampling) {
+SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& requested, const EdgeSampling& sampling) {
   const TriangleMesh surface = weldedSurface(mesh, requested);
   const double area = surfaceArea(surface);
   ShellOptions options = requested;
@@ -138,7 +138,7 @@ PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& requested
   filler.fillEdges(edges, sampling.radius);
   filler.throwDarts();
   filler.fillGaps();
-  PointShell shell = filler.take();
+  SampledPoints shell = filler.take();
   const ShellMeasures measures = measureShell(surface, shell, options.spacing);
   shell.areas.assign(measures.areas.begin(), measures.areas.end());
   // Both are upper bounds: the filler guarantees the spacing, and the radius is measured.
@@ -161,12 +161,12 @@ PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
   SurfaceFiller filler(surface, options);
   filler.addVertices();
   filler.fillEdges(edges, sampling.radius);
-  PointShell shell = filler.take();
+  SampledPoints shell = filler.take();
   shell.areas.assign(shell.size(), 0.0F);
   shell.covering_radius = kInfinity;
   shell.edge_radius = sampling.radius;
   shell.flatness = sampling.flatness;
-  return shell;
+  return toShell(shell);
 }
 
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {

@@ -11,75 +11,99 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "shell";
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
-static_assert(sizeof(Vector3d) == 3 * sizeof(double) && sizeof(Vector3f) == 3 * sizeof(float), "written as numbers");
-
-/// The numbers of a shell, where they are.
-struct ShellView {
-  View<Vector3d> points;
-  View<Vector3f> normals;
-  View<float> areas;
-  double covering_radius, edge_radius, flatness;
+/// What is written once per shell.
+struct ShellNumbers {
+  double covering_radius, edge_radius, flatness, position_error;
+  double origin[3];
 };
 
-/// The index of the first point with an invalid location, normal or area; the number of points if all are valid.
+static_assert(sizeof(ShellNumbers) == 7 * sizeof(double) && sizeof(Vector3f) == 3 * sizeof(float) &&
+                  sizeof(PackedNormal) == 2 * sizeof(std::int16_t),
+              "written as numbers");
+
+/// The numbers of a shell, where they are. Every normal is valid.
+struct ShellView {
+  ShellNumbers numbers;
+  View<Vector3f> offsets;
+  View<PackedNormal> normals;
+  View<float> areas;
+
+  Vector3d origin() const { return Vector3d(numbers.origin[0], numbers.origin[1], numbers.origin[2]); }
+};
+
+ShellView viewOfShell(const PointShell& shell) {
+  const Vector3d& o = shell.origin;
+  return {{shell.covering_radius, shell.edge_radius, shell.flatness, shell.position_error, {o.x(), o.y(), o.z()}},
+          viewOf(shell.offsets),
+          viewOf(shell.normals),
+          viewOf(shell.areas)};
+}
+
+/// The index of the first point with an invalid location or area; the number of points if all are valid.
 std::size_t firstBad(const ShellView& shell) {
   constexpr double kFarthest = 1e15;  // [m]: squares of distances, and volumes, stay finite
-  for (std::size_t i = 0; i < shell.points.size; ++i) {
-    const bool good = (shell.points[i].array().abs() < kFarthest).all() &&
-                      shell.normals[i].squaredNorm() < 1.0F + 1e-5F && shell.areas[i] >= 0.0 &&
-                      std::isfinite(shell.areas[i]);
+  for (std::size_t i = 0; i < shell.offsets.size; ++i) {
+    const Vector3d p = shell.origin() + shell.offsets[i].cast<double>();
+    const bool good = (p.array().abs() < kFarthest).all() && shell.areas[i] >= 0.0 && std::isfinite(shell.areas[i]);
     if (!good) return i;
   }
-  return shell.points.size;
+  return shell.offsets.size;
+}
+
+bool isFiniteLength(double value) {
+  return value >= 0.0 && std::isfinite(value);
 }
 
 /// What is wrong with a shell; empty if it is valid.
 std::string faultOf(const ShellView& shell) {
-  const std::size_t points = shell.points.size;
+  const std::size_t points = shell.offsets.size;
   if (shell.normals.size != points || shell.areas.size != points) {
     return std::to_string(points) + " points, " + std::to_string(shell.normals.size) + " normals, " +
            std::to_string(shell.areas.size) + " areas";
   }
   const std::size_t bad = firstBad(shell);
-  if (bad < points) return "point " + std::to_string(bad) + " has an invalid position, normal or area";
-  const bool has_radii = shell.covering_radius >= 0.0 && std::isfinite(shell.covering_radius) &&
-                         shell.edge_radius >= 0.0 && shell.flatness >= 0.0 && std::isfinite(shell.flatness);
-  return has_radii ? "" : "its covering radius, edge radius or flatness is not valid";
+  if (bad < points) return "point " + std::to_string(bad) + " has an invalid position or area";
+  const ShellNumbers& numbers = shell.numbers;
+  const bool is_valid = isFiniteLength(numbers.covering_radius) && numbers.edge_radius >= 0.0 &&
+                        isFiniteLength(numbers.flatness) && isFiniteLength(numbers.position_error) &&
+                        shell.origin().allFinite();
+  return is_valid ? "" : "its covering radius, edge radius, flatness, position error or origin is not valid";
 }
 
 }  // namespace
 
 void saveShell(const PointShell& shell, const std::string& path, const std::string& key) {
-  const std::string fault = faultOf({viewOf(shell.points), viewOf(shell.normals), viewOf(shell.areas),
-                                     shell.covering_radius, shell.edge_radius, shell.flatness});
+  const ShellView view = viewOfShell(shell);
+  const std::string fault = faultOf(view);
   if (!fault.empty()) throw std::runtime_error(path + ": not saved: " + fault);
-  const double radii[] = {shell.covering_radius, shell.edge_radius, shell.flatness};
-  writeCheckedFile(path, {kKind, kVersion, key},
-                   {{radii, sizeof radii},
-                    sectionOf(viewOf(shell.points)),
-                    sectionOf(viewOf(shell.normals)),
-                    sectionOf(viewOf(shell.areas))});
+  writeCheckedFile(
+      path, {kKind, kVersion, key},
+      {{&view.numbers, sizeof view.numbers}, sectionOf(view.offsets), sectionOf(view.normals), sectionOf(view.areas)});
 }
 
 PointShell loadShell(const std::string& path, const std::string& key) {
   const std::shared_ptr<const CheckedFile> file = CheckedFile::open(path, {kKind, kVersion, key});
-  std::size_t numbers = 0, points = 0, normals = 0, areas = 0;
-  const auto* radii = file->section<double>(0, numbers);
-  const auto* point = file->section<Vector3d>(1, points);
-  const auto* normal = file->section<Vector3f>(2, normals);
-  const auto* area = file->section<float>(3, areas);
-  if (numbers != 3) throw std::runtime_error(path + ": damaged: " + std::to_string(numbers) + " radii, not 3");
-  const std::string fault = faultOf({{point, points}, {normal, normals}, {area, areas}, radii[0], radii[1], radii[2]});
+  std::size_t count = 0;
+  ShellView view;
+  const auto* numbers = file->section<ShellNumbers>(0, count);
+  view.offsets.data = file->section<Vector3f>(1, view.offsets.size);
+  view.normals.data = file->section<PackedNormal>(2, view.normals.size);
+  view.areas.data = file->section<float>(3, view.areas.size);
+  if (count != 1) throw std::runtime_error(path + ": damaged: " + std::to_string(count) + " sets of radii, not 1");
+  view.numbers = *numbers;
+  const std::string fault = faultOf(view);
   if (!fault.empty()) throw std::runtime_error(path + ": damaged: " + fault);
   PointShell shell;
-  shell.points.assign(point, point + points);
-  shell.normals.assign(normal, normal + normals);
-  shell.areas.assign(area, area + areas);
-  shell.covering_radius = radii[0];
-  shell.edge_radius = radii[1];
-  shell.flatness = radii[2];
+  shell.origin = view.origin();
+  shell.offsets.assign(view.offsets.data, view.offsets.data + view.offsets.size);
+  shell.normals.assign(view.normals.data, view.normals.data + view.normals.size);
+  shell.areas.assign(view.areas.data, view.areas.data + view.areas.size);
+  shell.covering_radius = numbers->covering_radius;
+  shell.edge_radius = numbers->edge_radius;
+  shell.flatness = numbers->flatness;
+  shell.position_error = numbers->position_error;
   return shell;
 }
 

@@ -131,10 +131,11 @@ void reorder(std::vector<T>& values, const std::vector<std::int32_t>& order) {
 }  // namespace
 
 SphereTree buildSphereTree(PointShell& shell) {
-  Builder builder(shell.points);
+  const std::vector<Vector3d> points = shell.points();
+  Builder builder(points);
   SphereTree tree = builder.build();
   const std::vector<std::int32_t> order = builder.order();
-  reorder(shell.points, order);
+  reorder(shell.offsets, order);
   reorder(shell.normals, order);
   reorder(shell.areas, order);
   return tree;

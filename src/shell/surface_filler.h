@@ -6,9 +6,9 @@
 #include "flat_pieces.h"
 #include "point_grid.h"
 #include "sample_surface.h"
+#include "sampled_points.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/shell/point_shell.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {
@@ -29,7 +29,7 @@ class SurfaceFiller {
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
   void fillGaps();
 
-  PointShell take() { return std::move(shell_); }
+  SampledPoints take() { return std::move(shell_); }
 
  private:
   [[noreturn]] void refuse() const;
@@ -42,7 +42,7 @@ class SurfaceFiller {
   const ShellOptions& options_;
   std::vector<Vector3d> triangle_normals_;  // unit, or zero
   PointGrid grid_;
-  PointShell shell_;
+  SampledPoints shell_;
   std::vector<SurfacePiece> pieces_;  // the current triangle's pieces that are still to be filled
 };
 

@@ -7,10 +7,10 @@
 
 namespace sdf_ccd {
 
-PointShell witnessPoints(const TriangleMesh& mesh) {
+SampledPoints witnessPoints(const TriangleMesh& mesh) {
   validate(mesh);
   const std::vector<std::int32_t> component = componentOfVertices(mesh);
-  PointShell witnesses;
+  SampledPoints witnesses;
   witnesses.covering_radius = kInfinity;
   std::vector<char> seen(mesh.triangles.size(), 0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

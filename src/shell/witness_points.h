@@ -1,7 +1,7 @@
 #pragma once
 
+#include "sampled_points.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
 
@@ -9,6 +9,6 @@ namespace sdf_ccd {
 /// touches no other surface is wholly inside or wholly outside of another body, and this point decides which (design
 /// §3.15). The points represent no area, and the covering radius is infinite.
 /// @throws std::invalid_argument if the mesh is not valid (see validate()).
-PointShell witnessPoints(const TriangleMesh& mesh);
+SampledPoints witnessPoints(const TriangleMesh& mesh);
 
 }  // namespace sdf_ccd

@@ -36,7 +36,7 @@ void printField(const DistanceField& field) {
 void printShell(const PointShell& shell) {
   AlignedBox3d box;
   double area = 0.0;
-  for (const Vector3d& p : shell.points) box.extend(p);
+  for (const Vector3d& p : shell.points()) box.extend(p);
   for (const double a : shell.areas) area += a;
   std::cout << "shell: " << describe(shell) << ", area " << shortText(area) << " m^2\n";
   if (shell.size() > 0) std::cout << "within " << describe(box) << std::endl;

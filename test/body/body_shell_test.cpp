@@ -45,7 +45,7 @@ struct Union {
     other.seed = 2;
     for (std::size_t i = 0; i < elements.size(); ++i) {
       parts.push_back({elements[i].X_BG, sampleSurface(elements[i].shape, options()), &fields[i]});
-      for (const Vector3d& p : sampleSurface(elements[i].shape, other).points) {
+      for (const Vector3d& p : sampleSurface(elements[i].shape, other).points()) {
         const Vector3d p_B = elements[i].X_BG * p;
         if (distance(p_B) > -1e-9) places.push_back(p_B);
       }
@@ -63,7 +63,7 @@ struct Union {
 
 double nearest(const Union& shell, const Isometry3d& X_FP, const Union& field) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : shell.shell.points) least = std::min(least, field.distance(X_FP * p));
+  for (const Vector3d& p : shell.shell.points()) least = std::min(least, field.distance(X_FP * p));
   return least;
 }
 
@@ -78,10 +78,11 @@ TEST(UnionShell, KeepsTheGapOfItsElements) {
   const Union whole = tool();
   const PointShell bead = sampleSurface(Primitive(Sphere{0.008}), options());
   ASSERT_EQ(bead.edge_radius, std::numeric_limits<double>::infinity()) << "the bead is not covered all over";
-  EXPECT_LE(contactGap(whole.shell, whole.shell), kGap * (1 + 1e-9));
   const PointShell plate = sampleSurface(Primitive(Box{{0.2, 0.2, 0.01}}), options());
-  EXPECT_LE(contactGap(whole.shell, plate), kGap * (1 + 1e-9));
-  EXPECT_LE(contactGapToPlane(whole.shell), kGap * (1 + 1e-9));
+  const double largest = kGap * (1 + 1e-9) + std::max(whole.shell.position_error, plate.position_error);
+  EXPECT_LE(contactGap(whole.shell, whole.shell), largest);
+  EXPECT_LE(contactGap(whole.shell, plate), largest);
+  EXPECT_LE(contactGapToPlane(whole.shell), largest);
   EXPECT_GT(whole.shell.covering_radius, 5.0 * kGap);  // faces keep their few points
 }
 

@@ -173,8 +173,10 @@ TEST(Integrator, ImplicitLetsNoBallThroughACubeWhereverItWouldLeave) {
 TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
   RigidBody cube = primitiveBody("cube", Box{Vector3d::Constant(0.05)}, 1000.0, 0.02), rod = pointBody("rod", 1.0);
   cube.fixed = true;
-  rod.shape = std::make_shared<CollisionShape>(
-      makeShape(PointShell{{{0, 0, 0}, {0.2, 0, 0}}, {-Vector3f::UnitZ(), -Vector3f::UnitZ()}, {1.0F, 1.0F}, 0.0}));
+  PointShell ends;
+  ends.add({0, 0, 0}, -Vector3d::UnitZ(), 1.0F);
+  ends.add({0.2, 0, 0}, -Vector3d::UnitZ(), 1.0F);
+  rod.shape = std::make_shared<CollisionShape>(makeShape(ends));
   RigidWorld world;
   world.gravity.setZero();
   world.contact.stiffness = 1e9;
@@ -225,7 +227,7 @@ TEST(Integrator, ImplicitRecordsTheContactsAtTheEndOfTheStep) {
     const StepRecord& record = simulation.advance();
     double deepest = 0.0, elastic = 0.0;
     for (std::size_t k = 0; k < box.shape->shell.size(); ++k) {
-      const double depth = -std::min((simulation.states()[1].X_OB * box.shape->shell.points[k]).z(), 0.0);
+      const double depth = -std::min((simulation.states()[1].X_OB * box.shape->shell.point(k)).z(), 0.0);
       deepest = std::max(deepest, depth);
       elastic += 0.5 * 1e10 * box.shape->shell.areas[k] * depth * depth;
     }

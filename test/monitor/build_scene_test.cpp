@@ -23,7 +23,7 @@ TEST(BuildScene, PrimitivesHaveExactFields) {
     EXPECT_GT(body.shell->size(), 0u);
     EXPECT_LE(body.shell->covering_radius, 0.01 * (1 + 1e-9));
     EXPECT_EQ(body.tree->nodes[0].end, static_cast<int>(body.shell->size()));
-    for (const Vector3d& p : body.shell->points) ASSERT_LE((p - body.ball.center).norm(), body.ball.radius + 1e-12);
+    for (const Vector3d& p : body.shell->points()) ASSERT_LE((p - body.ball.center).norm(), body.ball.radius + 1e-12);
   }
   EXPECT_EQ(scene->reports[0].geometry, "sphere");
   EXPECT_EQ(scene->reports[0].field, "exact");
@@ -117,9 +117,9 @@ TEST(BuildScene, UnionShellStillCoversTheUnion) {
   };
   double deepest = 0.0, hidden_area = 0.0;
   for (std::size_t i = 0; i < body.shell->size(); ++i) {
-    const double depth = -inUnion(body.shell->points[i]);
+    const double depth = -inUnion(body.shell->point(i));
     deepest = std::max(deepest, depth);
-    if (depth > 1e-9) hidden_area += body.shell->areas[i];
+    if (depth > body.shell->position_error + 1e-9) hidden_area += body.shell->areas[i];
   }
   EXPECT_LE(deepest, body.shell->covering_radius + 1e-9);
   EXPECT_GT(deepest, 0.3 * body.shell->covering_radius);
@@ -137,7 +137,7 @@ TEST(BuildScene, UnionShellStillCoversTheUnion) {
     if (inUnion(q) < -1e-12) continue;
     ++tried;
     double nearest = 1.0;
-    for (const Vector3d& p : body.shell->points) nearest = std::min(nearest, (p - q).norm());
+    for (const Vector3d& p : body.shell->points()) nearest = std::min(nearest, (p - q).norm());
     ASSERT_LE(nearest, body.shell->covering_radius);
   }
   EXPECT_GT(tried, 1000);

@@ -134,7 +134,7 @@ TEST(OpenMesh, ShellsHaveNoPointsOnCaps) {
   const auto scene = test::build(
       {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf)))},
       coarse());
-  for (const Vector3d& p : scene->bodies[1].shell->points) {
+  for (const Vector3d& p : scene->bodies[1].shell->points()) {
     EXPECT_TRUE(p.z() < kHalf - 1e-9 || p.head<2>().lpNorm<Eigen::Infinity>() > kHalf - 1e-9) << p.transpose();
   }
 }

@@ -24,8 +24,9 @@ inline RigidBody pointBody(const std::string& name, double mass) {
   body.name = name;
   body.mass = mass;
   body.inertia = mass * Matrix3d::Identity();
-  body.shape =
-      std::make_shared<CollisionShape>(makeShape(PointShell{{Vector3d::Zero()}, {-Vector3f::UnitZ()}, {1.0F}, 0.0}));
+  PointShell point;
+  point.add(Vector3d::Zero(), -Vector3d::UnitZ(), 1.0F);
+  body.shape = std::make_shared<CollisionShape>(makeShape(point));
   return body;
 }
 

@@ -23,9 +23,7 @@ inline PointShell spiralSphere(double radius, int count) {
     const double z = 1.0 - (2.0 * i + 1.0) / count, turn = kPi * (3.0 - std::sqrt(5.0)) * i;
     const double r = std::sqrt(1.0 - z * z);
     const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z);
-    shell.normals.push_back(normal.cast<float>());
-    shell.points.push_back(radius * normal);
-    shell.areas.push_back(static_cast<float>(4.0 * kPi * radius * radius / count));
+    shell.add(radius * normal, normal, static_cast<float>(4.0 * kPi * radius * radius / count));
   }
   return shell;
 }
@@ -35,17 +33,17 @@ inline PointShell bottomFace(double half, int count) {
   PointShell shell;
   const double side = 2.0 * half / count;
   for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < count; ++k) {
-      shell.points.emplace_back(-half + (i + 0.5) * side, -half + (k + 0.5) * side, 0.0);
-      shell.normals.emplace_back(0.0F, 0.0F, -1.0F);
-      shell.areas.push_back(static_cast<float>(side * side));
-    }
+    for (int k = 0; k < count; ++k)
+      shell.add({-half + (i + 0.5) * side, -half + (k + 0.5) * side, 0.0}, -Vector3d::UnitZ(),
+                static_cast<float>(side * side));
   }
   return shell;
 }
 
 inline PointShell onePoint(const Vector3d& p, const Vector3d& normal) {
-  return {{p}, {normal.cast<float>()}, {1.0F}, 0.0};
+  PointShell shell;
+  shell.add(p, normal, 1.0F);
+  return shell;
 }
 
 /// One shell against one field over chords; every point is tested.
@@ -61,7 +59,7 @@ struct ContactCase {
     for (std::size_t c = 0; c < path.chords.size(); ++c) {
       const Chord& chord = path.chords[c];
       for (std::size_t i = 0; i < shell.size(); ++i) {
-        const Segment segment{chord.X_FP_start * shell.points[i], chord.X_FP_end * shell.points[i]};
+        const Segment segment{chord.X_FP_start * shell.point(i), chord.X_FP_end * shell.point(i)};
         for (const Interval& interval : segmentIntervals(field, segment))
           hits.push_back({static_cast<int>(i), static_cast<int>(c), interval});
       }

@@ -14,9 +14,8 @@ TEST(ShellDistance, IsThatOfTheNearestPointOfAll) {
   Random random(4);
   PointShell shell;
   for (int i = 0; i < 3000; ++i) {
-    shell.points.push_back(0.2 * test::direction(random));
-    shell.normals.push_back(shell.points.back().normalized().cast<float>());
-    shell.areas.push_back(1e-4F);
+    const Vector3d out = test::direction(random);
+    shell.add(0.2 * out, out, 1e-4F);
   }
   const SphereTree tree = buildSphereTree(shell);
   const DistanceField field{Primitive(Box{Vector3d(0.1, 0.2, 0.3)})};
@@ -25,7 +24,7 @@ TEST(ShellDistance, IsThatOfTheNearestPointOfAll) {
   for (int i = 0; i < 300; ++i) {
     const Isometry3d X_FP = test::pose(random, 3.0, 0.9);
     double least = 1e300;
-    for (const Vector3d& p : shell.points) least = std::min(least, field.sample(X_FP * p).value);
+    for (const Vector3d& p : shell.points()) least = std::min(least, field.sample(X_FP * p).value);
     const double range = test::uniform(random, 0.0, 0.6);
     const ShellDistance found = shellDistance(field, shell, tree, X_FP, range, pending);
     if (least > range) {
@@ -36,7 +35,7 @@ TEST(ShellDistance, IsThatOfTheNearestPointOfAll) {
     ASSERT_GE(found.point, 0);
     EXPECT_EQ(found.value, least);
     EXPECT_LE(found.error, 1e-12);
-    EXPECT_EQ(found.p_F, X_FP * shell.points[found.point]);
+    EXPECT_EQ(found.p_F, X_FP * shell.point(found.point));
     inside += least < 0.0;
   }
   EXPECT_GT(inside, 30);

@@ -28,7 +28,7 @@ std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& s
   std::vector<ShellHit> hits;
   for (int c = 0; c < int(path.chords.size()); ++c) {
     std::vector<Segment> segments;
-    for (const Vector3d& p : shell.points)
+    for (const Vector3d& p : shell.points())
       segments.push_back({path.chords[c].X_FP_start * p, path.chords[c].X_FP_end * p});
     if (field.primitive()) {
       for (int i = 0; i < int(segments.size()); ++i)
@@ -338,7 +338,7 @@ TEST(ShellQuery, ClearanceIsATightLowerBound) {
     for (int i = 0; i < 200; ++i) {
       const Isometry3d X_FP = test::pose(random, 3.0, 0.6);
       double nearest = 1e9, nearest_bound = 1e9;
-      for (const Vector3d& p : scene.shell.points) {
+      for (const Vector3d& p : scene.shell.points()) {
         const FieldSample at = scene.field.sample(X_FP * p);
         nearest = std::min(nearest, at.value + at.error);
         nearest_bound = std::min(nearest_bound, scene.field.lowerBound(X_FP * p));

@@ -42,7 +42,7 @@ struct Measured {
 };
 
 /// By brute force: each triangle is cut by the bisecting planes of all pairs of points.
-Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
+Measured measureEachByEach(const TriangleMesh& mesh, const SampledPoints& shell) {
   Measured measured;
   measured.areas.assign(shell.size(), 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -75,13 +75,13 @@ Measured measureEachByEach(const TriangleMesh& mesh, const PointShell& shell) {
 }
 
 /// Random points of the mesh, each with its triangle's normal; some are duplicates, some are off the mesh.
-PointShell drawnShell(const TriangleMesh& mesh, std::size_t count, std::mt19937_64& random) {
+SampledPoints drawnShell(const TriangleMesh& mesh, std::size_t count, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;
   std::vector<double> weights;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     weights.push_back(areaNormal(mesh, static_cast<int>(i)).norm());
   std::discrete_distribution<int> pick(weights.begin(), weights.end());
-  PointShell shell;
+  SampledPoints shell;
   while (shell.size() < count) {
     const int triangle = pick(random);
     const Vector3i& t = mesh.triangles[triangle];
@@ -113,7 +113,7 @@ TEST(MeasureShell, IsAsEachPointAgainstEachSays) {
     const TriangleMesh& mesh = meshes[m];
     const double area = surfaceArea(mesh);
     for (const std::size_t count : {1, 2, 5, 20, 70}) {
-      const PointShell shell = drawnShell(mesh, count, random);
+      const SampledPoints shell = drawnShell(mesh, count, random);
       const Measured expected = measureEachByEach(mesh, shell);
       for (const double scale : {0.5, 0.1, 0.02}) {
         const auto [areas, radius] = measureShell(mesh, shell, scale);
@@ -132,7 +132,7 @@ TEST(MeasureShell, IsAsEachPointAgainstEachSays) {
 TEST(MeasureShell, PointsThatCoincideToRoundingTakeNoTime) {
   constexpr int kSides = 200;
   TriangleMesh mesh = test::boxMesh({0.1, 0.1, 0.1});
-  PointShell shell;
+  SampledPoints shell;
   const auto add = [&](const Vector3d& p) {
     shell.points.push_back(p);
     shell.normals.push_back(-p.normalized().cast<float>());

@@ -40,7 +40,7 @@ std::vector<Vector3d> randomPlaces(const TriangleMesh& mesh, int count) {
 
 double nearestDistance(const PointShell& shell, const Vector3d& place) {
   double best = 1e300;
-  for (const Vector3d& p : shell.points) best = std::min(best, (p - place).norm());
+  for (const Vector3d& p : shell.points()) best = std::min(best, (p - place).norm());
   return best;
 }
 
@@ -69,7 +69,7 @@ TEST(SampleSurface, CoveringRadiusIsABoundFromBothSides) {
       ShellOptions options;
       options.spacing = spacing;
       const PointShell shell = sampleSurface(mesh, options);
-      EXPECT_LE(shell.covering_radius, spacing) << name;
+      EXPECT_LE(shell.covering_radius, spacing + shell.position_error) << name;
       double sampled = 0;
       for (const Vector3d& place : randomPlaces(mesh, 20000)) {
         sampled = std::max(sampled, nearestDistance(shell, place));
@@ -113,7 +113,7 @@ TEST(SampleSurface, AreasAgreeWithCountingRandomPlaces) {
   for (const Vector3d& place : places) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < shell.size(); ++i) {
-      if ((shell.points[i] - place).norm() < (shell.points[nearest] - place).norm()) nearest = i;
+      if ((shell.point(i) - place).norm() < (shell.point(nearest) - place).norm()) nearest = i;
     }
     counted[nearest] += surfaceArea(mesh) / places.size();
   }
@@ -128,10 +128,10 @@ TEST(SampleSurface, AThinPlateHasPointsAndAreaOnBothSides) {
   options.spacing = 0.05;
   const PointShell shell = sampleSurface(test::boxMesh({0.5, 0.5, 0.0005}), options);
   double up = 0, down = 0;
-  for (std::size_t i = 0; i < shell.size(); ++i) (shell.normals[i].z() > 0 ? up : down) += shell.areas[i];
+  for (std::size_t i = 0; i < shell.size(); ++i) (shell.normal(i).z() > 0 ? up : down) += shell.areas[i];
   EXPECT_NEAR(up, down, 0.02);
   std::size_t above = 0;
-  for (const Vector3f& normal : shell.normals) above += normal.z() > 0.9;
+  for (const PackedNormal& normal : shell.normals) above += normal.vector().z() > 0.9;
   EXPECT_NEAR(static_cast<double>(above) / shell.size(), 0.5, 0.05);
 }
 
@@ -143,11 +143,10 @@ TEST(SampleSurface, PointsKeepTheirDistanceAndLieOnTheMesh) {
   const TriangleTree tree(mesh);
   const std::size_t vertices = mesh.vertices.size();
   for (std::size_t i = 0; i < shell.size(); ++i) {
-    EXPECT_LT(tree.closestPoint(shell.points[i]).distance, 1e-14);
-    EXPECT_NEAR(shell.normals[i].norm(), 1, kRounding);
-    EXPECT_GT(shell.normals[i].cast<double>().dot(shell.points[i].normalized()), 0.9);
+    EXPECT_LT(tree.closestPoint(shell.point(i)).distance, shell.position_error + 1e-14);
+    EXPECT_GT(shell.normal(i).dot(shell.point(i).normalized()), 0.9);
     for (std::size_t j = vertices; j < i; ++j) {
-      EXPECT_GT((shell.points[i] - shell.points[j]).norm(), 0.94 * options.spacing);
+      EXPECT_GT((shell.point(i) - shell.point(j)).norm(), 0.94 * options.spacing);
     }
   }
 }
@@ -161,9 +160,10 @@ TEST(SampleSurface, VerticesAreKeptOrThinned) {
   options.vertex_spacing = 0.1;
   const PointShell thinned = sampleSurface(mesh, options);
   EXPECT_LT(thinned.size(), all.size() / 4);
-  EXPECT_LE(thinned.covering_radius, 0.2);
+  EXPECT_LE(thinned.covering_radius, 0.2 + thinned.position_error);
   for (std::size_t i = 0; i < thinned.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GE((thinned.points[i] - thinned.points[j]).norm(), 0.1);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE((thinned.point(i) - thinned.point(j)).norm(), 0.1 - 2.0 * thinned.position_error);
   }
 }
 
@@ -172,11 +172,11 @@ TEST(SampleSurface, EqualSeedsGiveEqualShells) {
   options.spacing = 0.05;
   const TriangleMesh mesh = test::torusMesh(0.4, 0.1, 20, 10);
   const PointShell a = sampleSurface(mesh, options), b = sampleSurface(mesh, options);
-  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.points(), b.points());
   EXPECT_EQ(a.areas, b.areas);
   EXPECT_EQ(a.covering_radius, b.covering_radius);
   options.seed = 2;
-  EXPECT_NE(sampleSurface(mesh, options).points, a.points);
+  EXPECT_NE(sampleSurface(mesh, options).points(), a.points());
 }
 
 TEST(SampleSurface, PrimitivesArePointsOfTheirSurface) {
@@ -188,12 +188,11 @@ TEST(SampleSurface, PrimitivesArePointsOfTheirSurface) {
       ShellOptions options;
       options.spacing = spacing;
       const PointShell shell = sampleSurface(solid, options);
-      EXPECT_LE(shell.covering_radius, spacing);
+      EXPECT_LE(shell.covering_radius, spacing + shell.position_error);
       EXPECT_NEAR(sum(shell.areas), area, kRounding * area);
       for (std::size_t i = 0; i < shell.size(); ++i) {
-        EXPECT_NEAR(signedDistance(solid, shell.points[i]), 0, 1e-15);
-        EXPECT_NEAR(shell.normals[i].norm(), 1, kRounding);
-        EXPECT_GT(signedDistance(solid, shell.points[i] + 1e-6 * shell.normals[i].cast<double>()), 5e-7);
+        EXPECT_NEAR(signedDistance(solid, shell.point(i)), 0, shell.position_error + 1e-15);
+        EXPECT_GT(signedDistance(solid, shell.point(i) + 1e-6 * shell.normal(i)), 5e-7);
       }
       double sampled = 0;
       for (const Vector3d& near : randomPlaces(tessellate(solid, 1e-6), 5000)) {
@@ -211,12 +210,15 @@ TEST(SampleSurface, NormalsOfACylinderAreThoseOfItsSides) {
   options.spacing = 0.02;
   const PointShell shell = sampleSurface(Primitive(Cylinder{0.1, 0.2}), options);
   for (std::size_t i = 0; i < shell.size(); ++i) {
-    const Vector3d& p = shell.points[i];
-    const bool on_cap = std::abs(p.z()) == 0.2, on_side = std::abs(p.head<2>().norm() - 0.1) < 1e-12;
+    const Vector3d p = shell.point(i);
+    const double rounding = shell.position_error + 1e-12;
+    const bool on_cap = std::abs(std::abs(p.z()) - 0.2) < rounding,
+               on_side = std::abs(p.head<2>().norm() - 0.1) < rounding;
     ASSERT_TRUE(on_cap || on_side);
     if (on_cap && on_side) continue;
     const Vector3d expected = on_cap ? Vector3d(0, 0, p.z() > 0 ? 1 : -1) : Vector3d(p.x() / 0.1, p.y() / 0.1, 0);
-    EXPECT_TRUE(shell.normals[i].isApprox(expected.cast<float>(), float(kRounding))) << p.transpose();
+    // The normal is that of the point before it was rounded.
+    EXPECT_LT((shell.normal(i) - expected).norm(), PackedNormal::kMaxError + kRounding) << p.transpose();
   }
 }
 
@@ -267,7 +269,7 @@ TEST(SampleSurface, SliversTakeTimeByTheirLength) {
   const auto seconds = [&](double length) {
     const double start = threadSeconds();
     const PointShell shell = sampleSurface(sliver(length), options);
-    EXPECT_LE(shell.covering_radius, options.spacing);
+    EXPECT_LE(shell.covering_radius, options.spacing + shell.position_error);
     EXPECT_NEAR(sum(shell.areas), surfaceArea(sliver(length)), kRounding * surfaceArea(sliver(length)));
     return threadSeconds() - start;
   };
@@ -298,7 +300,6 @@ TEST(SampleSurface, DegenerateTrianglesDoNoHarm) {
   options.spacing = 0.1;
   const PointShell shell = sampleSurface(mesh, options);
   EXPECT_NEAR(sum(shell.areas), 6, 6 * kRounding);
-  for (const Vector3f& normal : shell.normals) EXPECT_NEAR(normal.norm(), 1, kRounding);
 }
 
 TEST(SampleSurface, ExpectedPointsAreAboutRight) {
@@ -328,7 +329,7 @@ TEST(SampleSurface, RobotMeshes) {
     ShellOptions options;
     options.spacing = boundingBox(mesh).sizes().maxCoeff() / 50;
     const PointShell shell = sampleSurface(mesh, options);
-    EXPECT_LE(shell.covering_radius, options.spacing);
+    EXPECT_LE(shell.covering_radius, options.spacing + shell.position_error);
     EXPECT_NEAR(sum(shell.areas), surfaceArea(mesh), kRounding * surfaceArea(mesh));
     for (const Vector3d& place : randomPlaces(mesh, 500)) {
       EXPECT_LE(nearestDistance(shell, place), shell.covering_radius);
@@ -347,13 +348,14 @@ TEST(SampleSurface, FacesInsideTheSolidGetNoPointsAndNoArea) {
     const PointShell shell = sampleSurface(mesh, options);
     double area = 0;
     for (std::size_t i = 0; i < shell.size(); ++i) {
-      const Vector3d& p = shell.points[i];
-      EXPECT_GE(((p + shift).cwiseAbs() - half_size_of_first).maxCoeff(), -1e-9) << p.transpose();
-      EXPECT_GE(((p - shift).cwiseAbs() - half_size).maxCoeff(), -1e-9) << p.transpose();
+      const Vector3d p = shell.point(i);
+      EXPECT_GE(((p + shift).cwiseAbs() - half_size_of_first).maxCoeff(), -1e-9 - shell.position_error)
+          << p.transpose();
+      EXPECT_GE(((p - shift).cwiseAbs() - half_size).maxCoeff(), -1e-9 - shell.position_error) << p.transpose();
       area += shell.areas[i];
     }
     EXPECT_NEAR(area, 0.5 * 2.4 + 8 * half_width + 8 * half_width * half_width, 1e-9);
-    EXPECT_LE(shell.covering_radius, options.spacing);
+    EXPECT_LE(shell.covering_radius, options.spacing + shell.position_error);
   }
 }
 
@@ -367,7 +369,7 @@ TEST(SampleSurface, HeapsOfVerticesAlongSeamsAreThinned) {
   ShellOptions options;
   options.spacing = 0.02;
   const PointShell shell = sampleSurface(mesh, options);
-  EXPECT_LE(shell.covering_radius, options.spacing);
+  EXPECT_LE(shell.covering_radius, options.spacing + shell.position_error);
   EXPECT_LT(shell.size(), 5000U);
 }
 

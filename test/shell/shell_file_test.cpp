@@ -16,14 +16,14 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 6;
+constexpr std::uint32_t kVersion = 7;
 
 class ShellFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    shell_.points = {{1, 2, 3}, {4, 5, 6}};
-    shell_.normals = {{1, 0, 0}, {0, 1, 0}};
-    shell_.areas = {0.1F, 0.2F};
+    shell_.origin = {2, 3, 5};
+    shell_.add({1, 2, 3}, {1, 0, 0}, 0.1F);
+    shell_.add({4.1, 5.2, 6.3}, {1, 2, -3}, 0.2F);
     shell_.covering_radius = 0.007;
     shell_.edge_radius = 0.001;
     shell_.flatness = 0.0001;
@@ -37,12 +37,15 @@ class ShellFile : public ::testing::Test {
 TEST_F(ShellFile, ComesBackAsItWas) {
   saveShell(shell_, path_.string());
   const PointShell loaded = loadShell(path_.string());
-  EXPECT_EQ(loaded.points, shell_.points);
-  EXPECT_EQ(loaded.normals, shell_.normals);
+  EXPECT_EQ(loaded.origin, shell_.origin);
+  EXPECT_EQ(loaded.points(), shell_.points());
+  for (std::size_t i = 0; i < shell_.size(); ++i) EXPECT_EQ(loaded.normal(i), shell_.normal(i));
   EXPECT_EQ(loaded.areas, shell_.areas);
   EXPECT_EQ(loaded.covering_radius, shell_.covering_radius);
   EXPECT_EQ(loaded.edge_radius, shell_.edge_radius);
   EXPECT_EQ(loaded.flatness, shell_.flatness);
+  EXPECT_GT(loaded.position_error, 0.0);
+  EXPECT_EQ(loaded.position_error, shell_.position_error);
 }
 
 TEST_F(ShellFile, EmptyShellComesBack) {
@@ -70,23 +73,25 @@ TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
     shell_ = good;
     change();
     EXPECT_THROW(saveShell(shell_, path_.string()), std::runtime_error);
-    const double radii[] = {shell_.covering_radius, shell_.edge_radius, shell_.flatness};
+    const double header[] = {shell_.covering_radius, shell_.edge_radius, shell_.flatness,  shell_.position_error,
+                             shell_.origin.x(),      shell_.origin.y(),  shell_.origin.z()};
     file.write(path_.string(), [&](auto& sections) {
-      std::memcpy(sections[0].data(), radii, sections[0].size());
-      std::memcpy(sections[1].data(), shell_.points.data(), sections[1].size());
-      std::memcpy(sections[2].data(), shell_.normals.data(), sections[2].size());
+      ASSERT_EQ(sections[0].size(), sizeof header);
+      std::memcpy(sections[0].data(), header, sections[0].size());
+      std::memcpy(sections[1].data(), shell_.offsets.data(), sections[1].size());
       std::memcpy(sections[3].data(), shell_.areas.data(), sections[3].size());
     });
     EXPECT_THROW(loadShell(path_.string()), std::runtime_error);
   };
   for (const double bad : {HUGE_VAL, -HUGE_VAL, std::nan(""), 1e300}) {
-    expectRefused([&] { shell_.points[1].y() = bad; });
-    expectRefused([&] { shell_.normals[0].z() = static_cast<float>(bad); });
+    expectRefused([&] { shell_.offsets[1].y() = static_cast<float>(bad); });
+    expectRefused([&] { shell_.origin.z() = bad; });
   }
   for (const double bad : {HUGE_VAL, -1e-9, std::nan("")}) {
     expectRefused([&] { shell_.areas[1] = static_cast<float>(bad); });
     expectRefused([&] { shell_.covering_radius = bad; });
     expectRefused([&] { shell_.flatness = bad; });
+    expectRefused([&] { shell_.position_error = bad; });
   }
   for (const double bad : {-1e-9, std::nan("")}) expectRefused([&] { shell_.edge_radius = bad; });
   shell_ = good;

@@ -11,13 +11,9 @@
 namespace sdf_ccd {
 namespace {
 
-PointShell shellOf(std::vector<Vector3d> points) {
+PointShell shellOf(const std::vector<Vector3d>& points) {
   PointShell shell;
-  shell.points = std::move(points);
-  for (std::size_t i = 0; i < shell.size(); ++i) {
-    shell.normals.push_back(Vector3f::UnitZ());
-    shell.areas.push_back(static_cast<float>(i));  // identifies the point
-  }
+  for (const Vector3d& p : points) shell.add(p, Vector3d::UnitZ(), float(shell.size()));  // the area identifies it
   return shell;
 }
 
@@ -38,7 +34,7 @@ void expectSound(const SphereTree& tree, const PointShell& shell) {
   for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
     const SphereTree::Node& node = tree.nodes[n];
     for (int i = node.begin; i < node.end; ++i) {
-      ASSERT_LE((shell.points[i] - node.ball().center).norm(), node.ball().radius);
+      ASSERT_LE((shell.point(i) - node.ball().center).norm(), node.ball().radius);
       if (node.isLeaf()) ++in_leaves[i];
     }
     if (node.isLeaf()) {
@@ -65,7 +61,7 @@ TEST(SphereTree, HoldsAllPointsOnceAndNests) {
   expectSound(tree, shell);
   // The areas were reordered with their points.
   for (std::size_t i = 0; i < shell.size(); ++i) {
-    EXPECT_EQ(shell.points[i], before.points[static_cast<std::size_t>(shell.areas[i])]);
+    EXPECT_EQ(shell.point(i), before.point(static_cast<std::size_t>(shell.areas[i])));
   }
 }
 
@@ -111,19 +107,20 @@ TEST(SphereTree, HoldsPointsThatSinglePrecisionRounds) {
   for (const double scale : {1e-60, 1e-9, 1.0, 1e9, 1e60}) {
     for (const double away : {0.0, 1e-3, 1e6}) {
       PointShell shell;
-      for (const Vector3d& p : randomPoints(100)) shell.points.push_back(scale * (p + Vector3d::Constant(away)));
+      for (const Vector3d& p : randomPoints(100))
+        shell.add(scale * (p + Vector3d::Constant(away)), Vector3d::UnitZ(), 1.0F);
       expectSound(buildSphereTree(shell), shell);
     }
   }
   PointShell point;
-  point.points = {{0.1, 0.2, 1e-50}};
+  point.add({0.1, 0.2, 1e-50}, Vector3d::UnitZ(), 1.0F);
   expectSound(buildSphereTree(point), point);
 }
 
 TEST(SphereTree, IsTheSameEveryTime) {
   PointShell a = shellOf(randomPoints(500)), b = a;
   const SphereTree first = buildSphereTree(a), second = buildSphereTree(b);
-  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.points(), b.points());
   ASSERT_EQ(first.nodes.size(), second.nodes.size());
   for (std::size_t i = 0; i < first.nodes.size(); ++i) EXPECT_EQ(first.nodes[i].radius, second.nodes[i].radius);
 }

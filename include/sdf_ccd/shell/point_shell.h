@@ -7,30 +7,56 @@
 #include <vector>
 
 #include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/shell/packed_normal.h"
 
 namespace sdf_ccd {
 
-/// Points on a body's surface, in its frame P.
+/// Points on a body's surface, in its frame P, in 20 bytes each.
+///
+/// A point is exactly where point() says: spheres, radii, contacts and depths refer to it. It may be displaced from the
+/// surface, or from where it was added, by up to position_error.
 struct PointShell {
-  std::vector<Vector3d> points;   ///< [m]
-  std::vector<Vector3f> normals;  ///< unit, pointing out
-  std::vector<float> areas;       ///< surface area that each point represents [m²]
-  double covering_radius = 0.0;   ///< upper bound of the distance from the surface's locations to the points [m]
+  Vector3d origin = Vector3d::Zero();  ///< that positions are relative to [m]; errors are least in the points' middle
+  std::vector<Vector3f> offsets;       ///< of the points from the origin [m]
+  std::vector<PackedNormal> normals;   ///< pointing out
+  std::vector<float> areas;            ///< surface area that each point represents [m²]
+  double covering_radius = 0.0;        ///< upper bound of the distance from the surface's locations to the points [m]
 
   /// The same for the edges of its flat pieces, which deviate from planes by `flatness` [m]; see contact_gap.h.
   /// Infinite if edges have not been sampled separately.
   double edge_radius = std::numeric_limits<double>::infinity();
   double flatness = 0.0;
 
+  /// Upper bound of the displacement of points by rounding [m]; each rounding adds up to 6e-8 of the largest distance
+  /// of a point from the origin.
+  double position_error = 0.0;
+
+  /// Memory of a point [B].
+  static constexpr std::size_t kBytesPerPoint = sizeof(Vector3f) + sizeof(PackedNormal) + sizeof(float);
+
   /// Number of points.
-  std::size_t size() const { return points.size(); }
+  std::size_t size() const { return offsets.size(); }
+
+  /// Position of a point [m].
+  Vector3d point(std::size_t i) const { return origin + offsets[i].cast<double>(); }
+
+  /// Outward unit normal of a point, within PackedNormal::kMaxError of the one that was added.
+  Vector3d normal(std::size_t i) const { return normals[i].vector(); }
+
+  /// Positions of all points, copied [m].
+  std::vector<Vector3d> points() const;
+
+  /// Adds a point, and increases position_error if its position is rounded by more.
+  /// @param area  [m²].
+  void add(const Vector3d& p, const Vector3d& normal, float area);
 };
 
 /// How densely a surface is sampled.
 struct ShellOptions {
-  double spacing = 0.01;  ///< no location of the surface farther than this from a point [m]
+  double spacing = 0.01;  ///< no location of the surface farther than this from a point, but for its rounding [m]
   /// If less than the spacing, edges are sampled separately: if two surfaces sampled like this touch, a point of one is
-  /// no farther than this from the other (see contact_gap.h) [m]. 0: edges are not sampled separately.
+  /// no farther than this from the other, but for its rounding (see contact_gap.h) [m]. 0: edges are not sampled
+  /// separately.
   double edge_gap = 0.0;
   bool has_siblings = false;  ///< the surface is one of several of a body, whose edges may be sampled separately
   /// Mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all. For a mesh whose parts overlap, it

@@ -21,7 +21,8 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kSecondsPerPoint = 3.5e-5;  // on one thread; measured on shells of robot links
-constexpr double kBytesPerPoint = 72.0;      // including its share of the sphere tree
+// Including its share of the sphere tree: two nodes for a leaf of more than half the points that it may have.
+constexpr double kBytesPerPoint = double(PointShell::kBytesPerPoint) + 2.0 * sizeof(SphereTree::Node) / 8.0;
 constexpr double kSecondsPerTriangle = 4e-6;
 constexpr double kBytesPerTriangle = 120.0;  // including its share of the box tree
 constexpr double kLeftOfVoxels = 0.36;       // of a map's triangles, when faces are joined to rectangles
