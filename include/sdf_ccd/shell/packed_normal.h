@@ -24,6 +24,7 @@ struct PackedNormal {
   /// @param n  of any length; one that is zero or not finite gives +z.
   explicit PackedNormal(const Vector3d& n);
 
+  /// The unit vector.
   Vector3d vector() const {
     constexpr double kUnit = 1.0 / 32767.0;
     const double x = kUnit * u, y = kUnit * v, z = 1.0 - std::abs(x) - std::abs(y);

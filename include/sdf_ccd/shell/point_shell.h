@@ -76,6 +76,7 @@ struct SphereTree {
     std::int32_t end;
     std::int32_t first_child;  ///< of two consecutive ones; -1 for a leaf
 
+    /// Whether it has points, but no nodes, below it.
     bool isLeaf() const { return first_child < 0; }
 
     /// The sphere in double precision.
