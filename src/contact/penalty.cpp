@@ -34,6 +34,10 @@ bool hasDirection(const Vector3d& gradient) {
   return gradient.squaredNorm() > 1e-18;
 }
 
+// Where two pieces meet, the gradient may be discontinuous, and an adaptive field may jump: ends are taken to be inside
+// of a piece by this share of it.
+constexpr double kInside = 1e-9;
+
 // Values of sibling fields that differ by less than this, the rounding of their poses, count as equal [m].
 constexpr double kTie = 1e-9;
 
@@ -166,8 +170,7 @@ class Integrator {
     if (options_.quadrature == Quadrature::kExact &&
         smooth_.readPiece(point.position(from), point.position(to), piece_))
       return addSmooth(point, from, to);
-    // Where two pieces meet, the gradient may be discontinuous: the ends are evaluated slightly inside this one.
-    offer(point, from + 1e-9 * length);
+    offer(point, from + kInside * length);
     for (const Node& share : rule_) {
       const Node node{from + share.s * length, share.weight * length};
       if (!request_.impulse) {
@@ -178,14 +181,12 @@ class Integrator {
       deepest_.offer(node.s, at.value);
       addNode(point, node, at.value, normal(point, node.s, at.gradient));
     }
-    offer(point, to - 1e-9 * length);
+    offer(point, to - kInside * length);
   }
 
   /// Adds piece_.
   void addSmooth(const ChordPoint& point, double from, double to) {
     const double length = to - from;
-    // Where two pieces meet, an adaptive field may jump: the place has to be inside this one.
-    constexpr double kInside = 1e-9;
     const CubicMinimum lowest = minimumOf(piece_.distance);
     const double s = from + std::clamp(lowest.u, kInside, 1.0 - kInside) * length;
     if (deepest_.offerMinimum(s, lowest.value) && (lowest.u == 0.0 || lowest.u == 1.0))

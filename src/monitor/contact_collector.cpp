@@ -177,11 +177,7 @@ bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) co
   const HitDepth& depth = impulse_.depths[hit];
   if (depth.siblings) return false;
   if (!crosses_ && depth.depth > depth.error + path_error_) return false;
-  const Chord& chord = input.path.chords[hits_[hit].chord];
-  const double s = (depth.time - chord.t_start) / (chord.t_end - chord.t_start);
-  const Vector3d p_P = input.shell.point(hits_[hit].point);
-  const Vector3d p_F = (1.0 - s) * (chord.X_FP_start * p_P) + s * (chord.X_FP_end * p_P);
-  return !input.field.openings()->isWithin(p_F, depth.depth + depth.error);
+  return !input.field.openings()->isWithin(depth.p_F, depth.depth + depth.error);
 }
 
 /// Times that differ by less count as the same [s].

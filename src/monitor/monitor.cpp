@@ -216,11 +216,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
 /// Whether the pair's motion is known in this cycle. If not, its checker tells why.
 bool Monitor::Impl::isMotionKnown(const CycleMotion& motion, const DuePair& due) const {
   const PairResult& pair = result.pairs[static_cast<std::size_t>(due.pair)];
-  const auto isKnown = [&](int index) {
-    const auto body = static_cast<std::size_t>(index);
-    return scene->bodies[body].failure.empty() && (motion.missing.empty() || motion.missing[body].empty()) &&
-           bodies->problem(index).empty();
-  };
+  const auto isKnown = [&](int body) { return bodies->whyUnknown(motion, body).empty(); };
   return !pair.span.empty() && isKnown(pair.body_a) && isKnown(pair.body_b);
 }
 

@@ -43,9 +43,7 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
   };
   if (result.span.empty()) return because("its transforms have not arrived yet");
   for (const int body : {pair_.body_a, pair_.body_b}) {
-    const std::string& failure = scene_.bodies[body].failure;
-    const bool lost = !motion.missing.empty() && !motion.missing[body].empty();
-    const std::string& why = !failure.empty() ? failure : lost ? motion.missing[body] : bodies.problem(body);
+    const std::string& why = bodies.whyUnknown(motion, body);
     if (why.empty()) continue;
     forget();
     return because(why);

@@ -25,6 +25,15 @@ class SweptBodies {
   /// Why a body's motion cannot be followed: a pose is not finite, not a rotation, or too far away. Empty if it can.
   const std::string& problem(int body) const { return bodies_[body].problem; }
 
+  /// Why a body's motion is not known in a cycle: it could not be built, its transforms are missing, or problem().
+  /// Empty if it is known.
+  const std::string& whyUnknown(const CycleMotion& motion, int body) const {
+    const std::string& failure = scene_.bodies[body].failure;
+    if (!failure.empty()) return failure;
+    const bool is_lost = !motion.missing.empty() && !motion.missing[body].empty();
+    return is_lost ? motion.missing[body] : problem(body);
+  }
+
   const std::vector<double>& times() const { return *times_; }
 
   /// Motion between times `waypoint` and waypoint + 1; problem() must be empty.
