@@ -10,13 +10,9 @@ constexpr std::size_t kMaxBehind = 1000;  // a late transform is inserted only b
 }  // namespace
 
 ros::Time before(const ros::Time& time, const ros::Duration& duration) {
-  constexpr std::uint64_t kPerSecond = 1000000000;
   const std::uint64_t end = time.toNSec(), length = static_cast<std::uint64_t>(duration.toNSec());
   if (end <= length) return {};
-  ros::Time start;  // not time - duration, which takes several divisions, for every transform
-  start.sec = static_cast<std::uint32_t>((end - length) / kPerSecond);
-  start.nsec = static_cast<std::uint32_t>((end - length) % kPerSecond);
-  return start;
+  return ros::Time().fromNSec(end - length);  // time - duration takes several divisions, for every transform
 }
 
 void TfEdge::record(const TfPose& pose, const TfKeep& keep, TfCounts& counts) {
