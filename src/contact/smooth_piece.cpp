@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "field/uniform/sparse_grid.h"
+#include "field/trilinear_cell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/grid_cell.h"
+#include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
 
 namespace sdf_ccd {
@@ -55,10 +56,9 @@ bool CellReader::enterMiddle(const Vector3d& from_F, const Vector3d& to_F, CellL
 
 bool CellReader::enterCell(const Vector3d& g) {
   const Vector3i cell = cellAt(g, grid_->shape().cells());
-  const Vector3i brick = cell / GridShape::kBrick;
-  const std::int32_t slot = grid_->slot(brick);
+  const std::int32_t slot = grid_->slot(GridShape::brickOf(cell));
   if (slot == SparseGrid::kFar) return false;
-  corners_ = grid_->cellCorners(slot, cell - GridShape::kBrick * brick);
+  corners_ = grid_->cellCorners(slot, GridShape::inBrick(cell));
   low_ = cell.cast<double>();
   side_ = per_side_ = 1.0;
   return true;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
 #include "geometry/trees/triangle_tree.h"
 #include "oracle/box_union.h"

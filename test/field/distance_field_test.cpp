@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include "field/grid_cell.h"
+#include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
 #include "geometry/trees/triangle_tree.h"
 #include "oracle/random.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "field/near_octants.h"
+#include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"

@@ -1,6 +1,7 @@
 #include "field/cube_corner.h"
 #include "field/grid_cell.h"
 #include "field/grid_sample.h"
+#include "field/trilinear_cell.h"
 
 namespace sdf_ccd {
 namespace {

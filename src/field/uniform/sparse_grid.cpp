@@ -121,12 +121,4 @@ std::size_t SparseGrid::bytes() const {
          arrays_.samples.size * sizeof(std::int16_t);
 }
 
-Vector3d trilinearGradient(const std::array<double, 8>& c, const Vector3d& u) {
-  const double x = u.x(), y = u.y(), z = u.z();
-  const auto mix = [](double a, double b, double s) { return a + s * (b - a); };
-  return {mix(mix(c[1] - c[0], c[3] - c[2], y), mix(c[5] - c[4], c[7] - c[6], y), z),
-          mix(mix(c[2] - c[0], c[3] - c[1], x), mix(c[6] - c[4], c[7] - c[5], x), z),
-          mix(mix(c[4] - c[0], c[5] - c[1], x), mix(c[6] - c[2], c[7] - c[3], x), y)};
-}
-
 }  // namespace sdf_ccd

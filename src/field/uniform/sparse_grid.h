@@ -15,8 +15,9 @@ namespace sdf_ccd {
 
 /// Origin and size of a grid. Cells are cubes; 8×8×8 of them make a brick.
 struct GridShape {
-  static constexpr int kBrick = 8;          ///< cells along a brick's side
-  static constexpr int kSide = kBrick + 1;  ///< samples along a brick's side
+  static constexpr int kLogBrick = 3;
+  static constexpr int kBrick = 1 << kLogBrick;  ///< cells along a brick's side
+  static constexpr int kSide = kBrick + 1;       ///< samples along a brick's side
   static constexpr int kSamples = kSide * kSide * kSide;
 
   Vector3d origin = Vector3d::Zero();  ///< first corner of the first cell [m], frame F
@@ -32,6 +33,13 @@ struct GridShape {
   std::int16_t inSteps(double metres) const { return static_cast<std::int16_t>(std::lround(metres / step)); }
 
   Vector3i cells() const { return kBrick * bricks; }
+  /// The brick that holds a cell, and the cell's place in it. Cells are not negative.
+  static Vector3i brickOf(const Vector3i& cell) {
+    return {cell.x() >> kLogBrick, cell.y() >> kLogBrick, cell.z() >> kLogBrick};
+  }
+  static Vector3i inBrick(const Vector3i& cell) {
+    return {cell.x() & (kBrick - 1), cell.y() & (kBrick - 1), cell.z() & (kBrick - 1)};
+  }
   std::size_t brickCount() const { return std::size_t(bricks.x()) * bricks.y() * bricks.z(); }
   std::size_t cornerCount() const { return std::size_t(bricks.x() + 1) * (bricks.y() + 1) * (bricks.z() + 1); }
   /// The memory of a grid without its samples.
@@ -139,16 +147,5 @@ class SparseGrid {
   std::shared_ptr<const void> owner_;
   double error_bound_ = 0.0;
 };
-
-/// Trilinear interpolation at (u, v, w) in [0, 1]³ of eight corner values ordered like cellCorners().
-inline double trilinear(const std::array<double, 8>& c, const Vector3d& u) {
-  const double x0 = c[0] + u.x() * (c[1] - c[0]), x1 = c[2] + u.x() * (c[3] - c[2]);
-  const double x2 = c[4] + u.x() * (c[5] - c[4]), x3 = c[6] + u.x() * (c[7] - c[6]);
-  const double y0 = x0 + u.y() * (x1 - x0), y1 = x2 + u.y() * (x3 - x2);
-  return y0 + u.z() * (y1 - y0);
-}
-
-/// Its gradient per unit of (u, v, w).
-Vector3d trilinearGradient(const std::array<double, 8>& corners, const Vector3d& u);
 
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #include "field/grid_cell.h"
 #include "field/grid_sample.h"
+#include "field/trilinear_cell.h"
 
 #include <limits>
 
@@ -20,10 +21,10 @@ LocatedCell locate(const SparseGrid& grid, const Vector3d& p_F) {
   const GridShape& shape = grid.shape();
   const Vector3d g = (p_F - shape.origin) / shape.cell;
   const Vector3i cell = cellAt(g, shape.cells());
-  const Vector3i brick = cell / GridShape::kBrick;
+  const Vector3i brick = GridShape::brickOf(cell);
   const std::int32_t slot = grid.slot(brick);
   if (slot != SparseGrid::kFar) {
-    return {grid.cellCorners(slot, cell - GridShape::kBrick * brick), withinCell(g - cell.cast<double>()), shape.cell,
+    return {grid.cellCorners(slot, GridShape::inBrick(cell)), withinCell(g - cell.cast<double>()), shape.cell,
             true};
   }
   return {grid.brickCorners(brick), withinCell(g / GridShape::kBrick - brick.cast<double>()),

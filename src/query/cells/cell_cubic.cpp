@@ -33,19 +33,11 @@ Extrema extrema(const CellCubic& f) {
 
 }  // namespace
 
-CellCubic cellCubic(const std::array<double, 8>& k, const Vector3d& from, const Vector3d& to, double sigma) {
+CellCubic cellCubic(const std::array<double, 8>& corners, const Vector3d& from, const Vector3d& to, double sigma) {
   const Vector3d d = to - from;
-  // Substitute the line into A(x, y) + z B(x, y), each bilinear.
-  const double xy0 = from.x() * from.y(), xy1 = from.x() * d.y() + from.y() * d.x(), xy2 = d.x() * d.y();
-  const double ax = k[1] - k[0], ay = k[2] - k[0], axy = (k[3] - k[2]) - ax;
-  const double a0 = k[0] + ax * from.x() + ay * from.y() + axy * xy0;
-  const double a1 = ax * d.x() + ay * d.y() + axy * xy1, a2 = axy * xy2;
-  const double bz = k[4] - k[0], bx = (k[5] - k[4]) - ax, by = (k[6] - k[4]) - ay;
-  const double bxy = ((k[7] - k[6]) - (k[5] - k[4])) - axy;
-  const double b0 = bz + bx * from.x() + by * from.y() + bxy * xy0;
-  const double b1 = bx * d.x() + by * d.y() + bxy * xy1, b2 = bxy * xy2;
-  const double z = from.z();
-  return {{a0 + z * b0 - sigma, a1 + z * b1 + d.z() * b0, a2 + z * b2 + d.z() * b1, d.z() * b2}};
+  CellCubic cubic{cubicAlong(corners, {from.x(), from.y(), from.z()}, {d.x(), d.y(), d.z()})};
+  cubic.c[0] -= sigma;
+  return cubic;
 }
 
 CellIntervals nonPositive(const CellCubic& f) {
