@@ -24,22 +24,24 @@ class ChordFrame {
 
 /// A shell point along one chord, frame F (paper Eq. 1).
 struct ChordPoint {
-  const Chord& chord;
+  const Chord* chord = nullptr;
   PackedNormal normal_P;  ///< out of the shell's body
   Vector3d start;         ///< [m]
   Vector3d step;          ///< [m], over the whole chord
 
+  ChordPoint() = default;
+  /// @param on  must outlive this.
   ChordPoint(const Chord& on, const Vector3d& p_P, const PackedNormal& n_P)
-      : chord(on), normal_P(n_P), start(on.X_FP_start * p_P), step(on.X_FP_end * p_P - start) {}
+      : chord(&on), normal_P(n_P), start(on.X_FP_start * p_P), step(on.X_FP_end * p_P - start) {}
 
-  double duration() const { return chord.t_end - chord.t_start; }  ///< [s]
+  double duration() const { return chord->t_end - chord->t_start; }  ///< [s]
 
   Vector3d position(double s) const { return start + s * step; }
 
   /// Minus the point's outward normal: out of the field's body where the two bodies touch.
   Vector3d inward(double s) const {
     const Vector3d n_P = normal_P.vector();
-    return -((1.0 - s) * (chord.X_FP_start.linear() * n_P) + s * (chord.X_FP_end.linear() * n_P)).normalized();
+    return -((1.0 - s) * (chord->X_FP_start.linear() * n_P) + s * (chord->X_FP_end.linear() * n_P)).normalized();
   }
 
   /// Velocity of the shell's point relative to the field's body at the same point: v_A + ω_A×r_A − v_B −

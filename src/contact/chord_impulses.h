@@ -26,12 +26,15 @@ class ChordImpulses {
   const Isometry3d& poseAt(double s) { return at(s).X_CF; }
 
   /// Adds an impulse at the point p_F [N·s].
-  void add(double s, const Vector3d& p_F, const Vector3d& impulse_F) {
+  void add(double s, const Vector3d& p_F, const Vector3d& impulse_F) { add(s, p_F, Wrench{impulse_F}); }
+
+  /// Adds an impulse and an angular impulse about the point p_F.
+  void add(double s, const Vector3d& p_F, const Wrench& impulse_F) {
     Kept& kept = at(s);
     // About a point nearby, moments keep the precision that they lose about an origin far away.
     if (!kept.bears) kept.near_F = p_F;
     kept.bears = true;
-    kept.sum_F += {impulse_F, (p_F - kept.near_F).cross(impulse_F)};
+    kept.sum_F += {impulse_F.force, impulse_F.torque + (p_F - kept.near_F).cross(impulse_F.force)};
   }
 
   /// Turns all that has been added.

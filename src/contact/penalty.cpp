@@ -1,14 +1,15 @@
 #include "penalty.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "cell_ways.h"
 #include "chord_frame.h"
-#include "chord_impulses.h"
 #include "common/number_text.h"
 #include "deepest.h"
 #include "field/cell_reader.h"
@@ -19,19 +20,12 @@
 namespace sdf_ccd {
 namespace {
 
-struct Node {
-  double s;
-  double weight;
-};
-
-// Three-point Gauss on [0, 1]: exact up to degree 5, which d (cubic) times N and r (linear) is (design §3.9).
-const std::vector<Node> kGauss = {
-    {0.5 - std::sqrt(0.15), 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + std::sqrt(0.15), 5.0 / 18.0}};
-const std::vector<Node> kMidpoint = {{0.5, 1.0}};
+const std::vector<QuadratureNode> kGauss(kGaussNodes.begin(), kGaussNodes.end());
+const std::vector<QuadratureNode> kMidpoint = {{0.5, 1.0}};
 
 /// Whether a field's gradient is known, which it is not far inside.
 bool hasDirection(const Vector3d& gradient) {
-  return gradient.squaredNorm() > 1e-18;
+  return gradient.squaredNorm() > kNoDirection2;
 }
 
 // Where two pieces meet, the gradient may be discontinuous, and an adaptive field may jump: ends are taken to be inside
@@ -58,17 +52,83 @@ class Integrator {
         rule_(options.quadrature == Quadrature::kExact ? kGauss : kMidpoint),
         request_(request),
         result_(result),
-        impulses_(result.on_shell_body) {}
+        impulses_(result.on_shell_body),
+        may_add_to_ways_(request.impulse && options.quadrature == Quadrature::kExact &&
+                         options.normal == NormalSource::kField && input.siblings.empty()),
+        reach_from_(input.field.band() - input.field.errorBound()) {}
 
-  void add(const ShellHit& hit) {
+  /// Adds a hit, and sets its depth then or later, but before finish().
+  void add(const ShellHit& hit, HitDepth& depth) {
     if (hit.chord != chord_) {
+      finish();
       chord_ = hit.chord;
       impulses_.begin(ChordFrame(input_.X_CF[chord_], input_.X_CF[chord_ + 1]));
     }
+    if (!addToWays(hit, depth)) addAlone(hit, depth);
+  }
+
+  void finish() {
+    addWays();
+    in_cells_.moveTo(impulses_);
+    impulses_.finish();
+  }
+
+ private:
+  struct Pending {
+    const ShellHit* hit;
+    HitDepth* depth;
+    ChordPoint point;
+  };
+
+  /// Keeps a hit until there are as many as can be added together. @return false if it cannot be.
+  bool addToWays(const ShellHit& hit, HitDepth& depth) {
+    if (!may_add_to_ways_ || hit.interval.enter != 0.0 || hit.interval.exit != 1.0) return false;
+    const int lane = pending_count_;
+    ChordPoint& point = pending_[lane].point = pointOf(hit);
+    CellLine line;
+    if (!field_.enter(point.start, point.position(1.0), line)) return false;
+    pending_[lane].hit = &hit;
+    pending_[lane].depth = &depth;
+    for (int k = 0; k < 8; ++k) ways_.corners[k][lane] = field_.corners()[k];
+    for (int k = 0; k < 3; ++k) {
+      ways_.from[k][lane] = line.from[k];
+      ways_.to[k][lane] = line.to[k];
+      ways_.start[k][lane] = point.start[k];
+      ways_.step[k][lane] = point.step[k];
+    }
+    ways_.per_side[lane] = 1.0 / field_.side();
+    ways_.stiffness[lane] = shareOf(hit) * options_.stiffness;
+    ways_.damping[lane] = shareOf(hit) * options_.damping;
+    if (++pending_count_ == CellWays::kCount) addWays();
+    return true;
+  }
+
+  void addWays() {
+    if (pending_count_ == 0) return;
+    for (int lane = pending_count_; lane < CellWays::kCount; ++lane) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
+    CellDepths deepest;
+    in_cells_.add(ways_, pending_[0].point.duration(), deepest);
+    is_smooth_ = true;
+    for (int lane = 0; lane < pending_count_; ++lane) {
+      const auto& [hit, depth, point] = pending_[lane];
+      const double u = deepest.u[lane], s = std::clamp(u, kInside, 1.0 - kInside);
+      if (deepest.bears[lane] == 0.0) {
+        addAlone(*hit, *depth);
+        is_smooth_ = true;
+      } else if (u == 0.0 || u == 1.0) {
+        const Vector3d normal(deepest.normal[0][lane], deepest.normal[1][lane], deepest.normal[2][lane]);
+        setDepth(point, hit->interval, s, deepest.value[lane], normal, *depth);
+      } else {
+        setDepth(point, hit->interval, s, deepest.value[lane], normalAt(point, s), *depth);
+      }
+    }
+    pending_count_ = 0;
+  }
+
+  void addAlone(const ShellHit& hit, HitDepth& depth) {
     const ChordPoint point = pointOf(hit);
-    const double share = options_.stiffness_per == StiffnessPer::kArea ? double(input_.shell.areas[hit.point]) : 1.0;
-    stiffness_ = share * options_.stiffness;
-    damping_ = share * options_.damping;
+    stiffness_ = shareOf(hit) * options_.stiffness;
+    damping_ = shareOf(hit) * options_.damping;
 
     deepest_ = {};
     end_.s = -1.0;
@@ -79,14 +139,24 @@ class Integrator {
       addPieces(point, hit.interval);
     }
     deepest_.refine([&](double s) { return valueAt(point, s); });
-    result_.depths.push_back(depthOf(point, hit.interval));
+    depth.siblings = !deepest_.found();
+    if (depth.siblings) return;
+    const double s = deepest_.s();
+    const Vector3d normal = end_.s == s ? fieldNormal(point, s, end_.gradient) : normalAt(point, s);
+    setDepth(point, hit.interval, s, deepest_.value(), normal, depth);
   }
 
-  void finish() { impulses_.finish(); }
-
- private:
   ChordPoint pointOf(const ShellHit& hit) const {
     return {input_.path.chords[hit.chord], input_.shell.point(hit.point), input_.shell.normals[hit.point]};
+  }
+
+  /// What a point's stiffness and damping are multiplied by.
+  double shareOf(const ShellHit& hit) const {
+    return options_.stiffness_per == StiffnessPer::kArea ? double(input_.shell.areas[hit.point]) : 1.0;
+  }
+
+  Vector3d normalAt(const ChordPoint& point, double s) {
+    return fieldNormal(point, s, field_.interpolate(point.position(s)).gradient);
   }
 
   double valueAt(const ChordPoint& point, double s) { return field_.value(point.position(s)); }
@@ -171,8 +241,8 @@ class Integrator {
         smooth_.readPiece(point.position(from), point.position(to), piece_))
       return addSmooth(point, from, to);
     offer(point, from + kInside * length);
-    for (const Node& share : rule_) {
-      const Node node{from + share.s * length, share.weight * length};
+    for (const QuadratureNode& share : rule_) {
+      const QuadratureNode node{from + share.s * length, share.weight * length};
       if (!request_.impulse) {
         offer(point, node.s);
         continue;
@@ -195,39 +265,35 @@ class Integrator {
     // N is nearly linear where d is cubic, in a cell.
     const Vector3d N_first = normal(point, from, piece_.gradient_first);
     const Vector3d N_last = normal(point, to, piece_.gradient_last);
-    for (const Node& node : kGauss)
+    for (const QuadratureNode& node : kGauss)
       addNode(point, {from + node.s * length, node.weight * length}, piece_.distance(node.s),
               (1.0 - node.s) * N_first + node.s * N_last);
   }
 
   void offer(const ChordPoint& point, double s) { deepest_.offer(s, valueAt(point, s)); }
 
-  void addNode(const ChordPoint& point, const Node& node, double value, const Vector3d& N_F) {
+  void addNode(const ChordPoint& point, const QuadratureNode& node, double value, const Vector3d& N_F) {
     Vector3d F_F = -stiffness_ * std::min(value, 0.0) * N_F;  // Eq. 3, N as in design §3.6
     if (damping_ != 0.0) F_F -= damping_ * point.velocity();  // Eq. 10 with the sign that opposes the motion
     impulses_.add(node.s, point.position(node.s), (node.weight * point.duration()) * F_F);  // Eq. 4, 5, 11
   }
 
-  HitDepth depthOf(const ChordPoint& point, const Interval& times) {
-    HitDepth depth;
-    depth.siblings = !deepest_.found();
-    if (depth.siblings) return depth;
-    const double s = deepest_.s();
+  void setDepth(const ChordPoint& point, const Interval& times, double s, double value, const Vector3d& normal_F,
+                HitDepth& depth) {
     const Isometry3d& X_CF = impulses_.poseAt(s);
-    depth.depth = std::max(-deepest_.value(), 0.0);
-    depth.time = point.chord.t_start + s * point.duration();
+    depth.siblings = false;
+    depth.depth = std::max(-value, 0.0);
+    depth.time = point.chord->t_start + s * point.duration();
     depth.p_F = point.position(s);
     depth.p_C = X_CF * depth.p_F;
-    const Vector3d gradient = end_.s == s ? end_.gradient : field_.interpolate(depth.p_F).gradient;
-    depth.normal_C = X_CF.linear() * fieldNormal(point, s, gradient);
-    if (depth.depth >= input_.field.band() - input_.field.errorBound())
-      depth.reach = reachOf(point, times, depth.depth);
-    if (!request_.depth_errors) return depth;
+    depth.normal_C = X_CF.linear() * normal_F;
+    depth.reach = depth.depth >= reach_from_ ? reachOf(point, times, depth.depth) : 0.0;
+    depth.error = depth.depth_lower_bound = 0.0;
+    if (!request_.depth_errors) return;
     depth.error = depthError(input_.field, depth.p_F, depth.depth);
     depth.depth_lower_bound = depth.depth - depth.error;
     if (depth.depth > input_.field.band())
       depth.depth_lower_bound = std::max(depth.depth_lower_bound, -input_.field.bounds(depth.p_F).high);
-    return depth;
   }
 
   /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.
@@ -262,7 +328,7 @@ class Integrator {
   SmoothPieceReader smooth_;
   SmoothPiece piece_;  // read last
   const ContactOptions& options_;
-  const std::vector<Node>& rule_;  // on each piece
+  const std::vector<QuadratureNode>& rule_;  // on each piece
   const ContactRequest& request_;
   ContactImpulse& result_;
   int chord_ = -1;
@@ -273,6 +339,12 @@ class Integrator {
   Deepest deepest_;
   PieceEnd end_;
   bool is_smooth_ = false;  // this hit is one smooth piece
+  bool may_add_to_ways_;
+  double reach_from_;  // depth from which on a point's reach is told [m]
+  CellWays ways_;
+  std::array<Pending, CellWays::kCount> pending_;  // of ways_
+  int pending_count_ = 0;
+  CellImpulses in_cells_;
 };
 
 }  // namespace
@@ -302,12 +374,12 @@ void integrateContact(const ContactInput& input, const std::vector<ShellHit>& hi
                                 std::to_string(input.path.chords.size() + 1) + " poses X_CF, got " +
                                 std::to_string(input.X_CF.size()));
   result.on_shell_body = {};
-  result.depths.clear();
+  result.depths.resize(hits.size());
   Integrator integrator(input, options, request, result);
   CancelTicks<> cancel;
-  for (const ShellHit& hit : hits) {
+  for (std::size_t h = 0; h < hits.size(); ++h) {
     cancel.check();
-    integrator.add(hit);
+    integrator.add(hits[h], result.depths[h]);
   }
   integrator.finish();
 }

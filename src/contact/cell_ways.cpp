@@ -1,0 +1,127 @@
+#include "cell_ways.h"
+
+#include "common/lane_vector.h"
+#include "field/trilinear_cell.h"
+#include "query/cells/cell_cubic.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace lanes;
+using Vectors = LaneVector<Doubles>;
+using Column = CellWays::Column;
+
+SDF_CCD_INLINE Doubles load(const Column& column) {
+  return lanes::load(column.data());
+}
+
+SDF_CCD_INLINE Vectors load(const std::array<Column, 3>& columns) {
+  return {load(columns[0]), load(columns[1]), load(columns[2])};
+}
+
+SDF_CCD_INLINE void store(const Doubles& values, Column& column) {
+  lanes::store(values, column.data());
+}
+
+SDF_CCD_INLINE void addTo(std::array<Column, 3>& columns, const Vectors& v) {
+  store(load(columns[0]) + v.x, columns[0]);
+  store(load(columns[1]) + v.y, columns[1]);
+  store(load(columns[2]) + v.z, columns[2]);
+}
+
+SDF_CCD_INLINE Vectors where(const Doubles& first, const Vectors& a, const Vectors& b) {
+  const Doubles zero = {};
+  return {first > zero ? a.x : b.x, first > zero ? a.y : b.y, first > zero ? a.z : b.z};
+}
+
+/// A unit vector along the gradient. @param bears  set to 0 where the field has no direction.
+SDF_CCD_INLINE Vectors direction(const std::array<Doubles, 8>& corners, const Vectors& at, const Doubles& per_side,
+                                 Doubles& bears) {
+  const Doubles zero = {}, one = zero + 1.0;
+  const std::array<Doubles, 3> g = trilinearGradient(corners, at.x, at.y, at.z);
+  const Vectors gradient{g[0], g[1], g[2]};
+  const Doubles squared = gradient.dot(gradient);
+  const auto has = squared * per_side * per_side > zero + kNoDirection2;
+  bears = has ? bears : zero;
+  return gradient * (one / squareRoot(has ? squared : one));
+}
+
+/// The minima of cubics that rise or fall all along; the others are left to minimumOf().
+SDF_CCD_INLINE void findMinima(const std::array<Doubles, 4>& c, CellDepths& depths) {
+  const Doubles zero = {}, one = zero + 1.0;
+  // As in minimumOf().
+  const Doubles middle = c[1] + c[2], last = middle + c[2] + 3.0 * c[3];
+  const Doubles least = smaller(smaller(c[1], middle), last), greatest = larger(larger(c[1], middle), last);
+  const auto rises = least >= zero, falls = greatest <= zero;
+  const Doubles end = c[0] + (c[1] + (c[2] + c[3]));
+  store(rises ? zero : (falls ? one : zero - one), depths.u);
+  store(rises ? c[0] : end, depths.value);
+  for (int i = 0; i < CellWays::kCount; ++i) {
+    if (depths.u[i] >= 0.0) continue;
+    const CubicMinimum lowest = minimumOf({{c[0][i], c[1][i], c[2][i], c[3][i]}});
+    depths.u[i] = lowest.u;
+    depths.value[i] = lowest.value;
+  }
+}
+
+SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d& near_F, CellDepths& depths,
+                           std::array<CellImpulses::Sum, kGaussNodes.size()>& sums) {
+  const Doubles zero = {};
+  std::array<Doubles, 8> corners;
+  for (int k = 0; k < 8; ++k) corners[k] = load(ways.corners[k]);
+  const Vectors from = load(ways.from), to = load(ways.to);
+  const Vectors d = to - from;
+  const std::array<Doubles, 4> c = cubicAlong<Doubles>(corners, {from.x, from.y, from.z}, {d.x, d.y, d.z});
+  findMinima(c, depths);
+
+  const Doubles per_side = load(ways.per_side);
+  Doubles bears = zero + 1.0;
+  const Vectors N_first = direction(corners, from, per_side, bears);
+  const Vectors N_last = direction(corners, to, per_side, bears);
+  const Vectors N = where(load(depths.u), N_last, N_first);
+  store(bears, depths.bears);
+  store(N.x, depths.normal[0]);
+  store(N.y, depths.normal[1]);
+  store(N.z, depths.normal[2]);
+
+  const Doubles stiffness = bears * load(ways.stiffness) * duration, damping = bears * load(ways.damping);
+  const Vectors start = load(ways.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
+  const Vectors step = load(ways.step), turn = N_last - N_first;
+  for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
+    const Doubles s = zero + kGaussNodes[i].s;
+    const Doubles value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+    // Eq. 3 and 10, as in Integrator::addNode().
+    const Vectors bearing = (N_first + turn * s) * (-kGaussNodes[i].weight * stiffness * smaller(value, zero));
+    const Vectors impulse = bearing - step * (kGaussNodes[i].weight * damping);
+    addTo(sums[i].impulse, impulse);
+    addTo(sums[i].angular, (start + step * s).cross(impulse));
+  }
+}
+
+double sumOf(const Column& column) {
+  double sum = 0.0;
+  for (const double value : column) sum += value;
+  return sum;
+}
+
+Vector3d sumOf(const std::array<Column, 3>& columns) {
+  return {sumOf(columns[0]), sumOf(columns[1]), sumOf(columns[2])};
+}
+
+}  // namespace
+
+void CellImpulses::add(const CellWays& ways, double duration, CellDepths& depths) {
+  // About a point nearby, moments keep the precision that they lose about an origin far away.
+  if (!bears_) near_F_ = {ways.start[0][0], ways.start[1][0], ways.start[2][0]};
+  bears_ = true;
+  addWays(ways, duration, near_F_, depths, sums_);
+}
+
+void CellImpulses::moveTo(ChordImpulses& impulses) {
+  if (!bears_) return;
+  for (std::size_t i = 0; i < kGaussNodes.size(); ++i)
+    impulses.add(kGaussNodes[i].s, near_F_, Wrench{sumOf(sums_[i].impulse), sumOf(sums_[i].angular)});
+  *this = {};
+}
+
+}  // namespace sdf_ccd

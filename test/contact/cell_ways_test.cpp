@@ -1,0 +1,200 @@
+#include "contact/cell_ways.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "contact/curved_field.h"
+#include "oracle/contact_case.h"
+#include "oracle/random.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+using Real = long double;
+using Vector3l = Eigen::Matrix<Real, 3, 1>;
+
+/// The point and the way of one lane.
+struct Way {
+  std::array<double, 8> corners;
+  Vector3d from, to;  // in the cell
+  double side;
+  Vector3d start, step;
+  double stiffness, damping;
+
+  Real weight(int corner, const Vector3l& u) const {
+    Real product = 1.0L;
+    for (int k = 0; k < 3; ++k) product *= corner >> k & 1 ? u[k] : 1.0L - u[k];
+    return product;
+  }
+  Vector3l at(Real s) const { return from.cast<Real>() + s * (to - from).cast<Real>(); }
+  Real value(Real s) const {
+    Real sum = 0.0L;
+    for (int c = 0; c < 8; ++c) sum += corners[c] * weight(c, at(s));
+    return sum;
+  }
+  Vector3l normal(Real s) const {
+    Vector3l gradient;
+    for (int k = 0; k < 3; ++k) {
+      // Linear along each axis: a difference is exact.
+      Vector3l low = at(s), high = low;
+      low[k] = 0.0L;
+      high[k] = 1.0L;
+      gradient[k] = 0.0L;
+      for (int c = 0; c < 8; ++c) gradient[k] += corners[c] * (weight(c, high) - weight(c, low));
+    }
+    return gradient.normalized();
+  }
+};
+
+void put(const Way& way, int lane, CellWays& ways) {
+  for (int c = 0; c < 8; ++c) ways.corners[c][lane] = way.corners[c];
+  for (int k = 0; k < 3; ++k) {
+    ways.from[k][lane] = way.from[k];
+    ways.to[k][lane] = way.to[k];
+    ways.start[k][lane] = way.start[k];
+    ways.step[k][lane] = way.step[k];
+  }
+  ways.per_side[lane] = 1.0 / way.side;
+  ways.stiffness[lane] = way.stiffness;
+  ways.damping[lane] = way.damping;
+}
+
+/// In a cell below zero, which bends; some ways have their deepest place on the way.
+Way randomWay(Random& random, double far) {
+  std::uniform_real_distribution<double> u(0.0, 1.0);
+  Way way;
+  way.side = std::pow(10.0, -4.0 * u(random));
+  for (double& corner : way.corners) corner = -way.side * (0.01 + u(random));
+  way.from = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+  way.to = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+  way.start = Vector3d(far, 0.5 * far, 0.0) + uniformIn(random, {-Vector3d::Ones(), Vector3d::Ones()});
+  way.step = way.side * (way.to - way.from);
+  way.stiffness = std::pow(10.0, 9.0 * u(random));
+  way.damping = u(random) < 0.5 ? 0.0 : u(random) * way.stiffness;
+  return way;
+}
+
+TEST(CellWays, BearWhatTheirIntegralsSay) {
+  Random random(3);
+  for (const double far : {0.0, 1e3}) {
+    for (int trial = 0; trial < 100; ++trial) {
+      constexpr double kDuration = 1e-3;
+      CellWays ways;
+      std::vector<Way> used;
+      CellImpulses impulses;
+      CellDepths deepest;
+      Vector3l impulse = Vector3l::Zero(), angular = Vector3l::Zero();
+      Real size = 0.0L;
+      for (int group = 0; group < 1 + trial % 3; ++group) {
+        ways = {};
+        used.clear();
+        for (int lane = 0; lane < 1 + trial % CellWays::kCount; ++lane) {
+          used.push_back(randomWay(random, far));
+          put(used.back(), lane, ways);
+        }
+        impulses.add(ways, kDuration, deepest);
+        for (std::size_t lane = 0; lane < used.size(); ++lane) {
+          const Way& way = used[lane];
+          ASSERT_EQ(deepest.bears[lane], 1.0);
+          // Simpson's rule; N is linear between the ends.
+          constexpr int kParts = 400;
+          const Vector3l first = way.normal(0.0L), last = way.normal(1.0L);
+          Real least = 0.0L;
+          for (int i = 0; i <= kParts; ++i) {
+            const Real s = Real(i) / kParts, weight = (i % kParts == 0 ? 1.0L : i % 2 ? 4.0L : 2.0L) / (3.0L * kParts);
+            const Vector3l force = -Real(way.stiffness) * way.value(s) * ((1.0L - s) * first + s * last) -
+                                   Real(way.damping) * way.step.cast<Real>() / kDuration;
+            const Vector3l part = weight * kDuration * force;
+            impulse += part;
+            angular += (way.start.cast<Real>() + s * way.step.cast<Real>()).cross(part);
+            size += part.norm();
+            least = std::min(least, way.value(s));
+          }
+          const Real at = deepest.u[lane];
+          EXPECT_LE(std::abs(double(way.value(at)) - deepest.value[lane]), 1e-14 * way.side);
+          EXPECT_LE(deepest.value[lane], double(least) + 1e-14 * way.side);
+          if (at != 0.0L && at != 1.0L) continue;
+          const Vector3d normal(deepest.normal[0][lane], deepest.normal[1][lane], deepest.normal[2][lane]);
+          EXPECT_LE((normal - way.normal(at).cast<double>()).norm(), 1e-12);
+        }
+      }
+      Wrench sum;
+      ChordImpulses all(sum);
+      all.begin({});
+      impulses.moveTo(all);
+      all.finish();
+      EXPECT_LE((sum.force - impulse.cast<double>()).norm(), 1e-10 * double(size));
+      EXPECT_LE((sum.torque - angular.cast<double>()).norm(), 1e-10 * (1.0 + far) * double(size));
+    }
+  }
+}
+
+/// Nothing is added for a cell without a direction; the lanes beside it are as without it.
+TEST(CellWays, WithoutDirectionBearNothing) {
+  Random random(4);
+  const Way way = randomWay(random, 0.0);
+  Way flat = way;
+  flat.corners.fill(-0.01);
+  CellWays both, one;
+  put(flat, 0, both);
+  put(way, 1, both);
+  put(way, 1, one);
+  std::array<Wrench, 2> sums;
+  for (int i = 0; i < 2; ++i) {
+    CellImpulses impulses;
+    CellDepths deepest;
+    impulses.add(i == 0 ? both : one, 1.0, deepest);
+    EXPECT_EQ(deepest.bears[0], 0.0);
+    EXPECT_EQ(deepest.bears[1], 1.0);
+    ChordImpulses all(sums[i]);
+    all.begin({});
+    impulses.moveTo(all);
+    all.finish();
+  }
+  EXPECT_GT(sums[0].force.norm(), 0.0);
+  EXPECT_LE((sums[0].force - sums[1].force).norm(), 1e-15 * sums[1].force.norm());
+  EXPECT_LE((sums[0].torque - sums[1].torque).norm(), 1e-14 * (sums[1].torque.norm() + sums[1].force.norm()));
+}
+
+/// Points of one contact are added together where their ways allow: each bears what it does alone, and has its depth.
+TEST(CellWays, PointsTogetherAreAsEachAlone) {
+  Random random(5);
+  const DistanceField field = curvedField();
+  ContactOptions options = perArea();
+  options.damping = 3.0;
+  for (const int count : {1, 2, 3, 4, 5, 9, 40}) {
+    ContactCase all{
+        field, {}, oneChord(0.1, pose({0.0, 0.0, -0.01}, 0.1, {1, 2, 3}), pose({0.01, 0.02, -0.02}, 0.12, {1, 2, 3}))};
+    all.X_CF = {pose({0.1, 0.2, 0.3}, 0.4, {3, 2, 1}), pose({0.1, 0.25, 0.3}, 0.45, {3, 2, 1})};
+    // Some are inside only for a part of the time, and some change the cell.
+    for (int i = 0; i < count; ++i)
+      all.shell.add(uniformIn(random, {Vector3d(-0.2, -0.2, -0.2), Vector3d(0.2, 0.2, 0.05)}), -Vector3d::UnitZ(),
+                    0.1F);
+    const ContactImpulse together = all.run(options);
+    Wrench sum;
+    std::vector<HitDepth> depths;
+    for (std::size_t i = 0; i < all.shell.size(); ++i) {
+      ContactCase alone = all;
+      alone.shell = onePoint(all.shell.point(i), all.shell.normal(i));
+      alone.shell.areas = {all.shell.areas[i]};
+      const ContactImpulse found = alone.run(options);
+      sum += found.on_shell_body;
+      depths.insert(depths.end(), found.depths.begin(), found.depths.end());
+    }
+    ASSERT_EQ(together.depths.size(), depths.size());
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      EXPECT_NEAR(together.depths[i].depth, depths[i].depth, 1e-15);
+      EXPECT_NEAR(together.depths[i].time, depths[i].time, 1e-12);
+      EXPECT_LE((together.depths[i].p_C - depths[i].p_C).norm(), 1e-12);
+      EXPECT_LE((together.depths[i].normal_C - depths[i].normal_C).norm(), 1e-12);
+      EXPECT_EQ(together.depths[i].error, depths[i].error);
+    }
+    EXPECT_LE((together.on_shell_body.force - sum.force).norm(), 1e-12 * sum.force.norm());
+    EXPECT_LE((together.on_shell_body.torque - sum.torque).norm(), 1e-12 * (sum.torque.norm() + sum.force.norm()));
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
