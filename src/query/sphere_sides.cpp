@@ -1,7 +1,5 @@
 #include "sphere_sides.h"
 
-#include <optional>
-
 #include "shell_points.h"
 
 namespace sdf_ccd {
@@ -42,50 +40,59 @@ struct SphereSides::Vectors {
     if (adaptive) return *adaptive;
     return *uniform;
   }
-};
 
-void SphereSides::begin(const Chord& chord) {
-  chord_ = &chord;
-  if (vectors_) vectors_->sweep.emplace(field_, vectors_->box(), chord, margins_, shell_);
-}
-
-bool SphereSides::sortsPoints() const {
-  return vectors_ && !vectors_->sweep->isLong();
-}
-
-void SphereSides::testGroup() {
-  if (vectors_->adaptive) {
-    sweepSpheres(*vectors_->adaptive, *vectors_->sweep, group_, vectors_->work);
-  } else {
-    sweepSpheres(*vectors_->uniform, *vectors_->sweep, group_, vectors_->work);
+  void begin(const DistanceField& field, const Chord& chord, const SweptMargins& margins, const BoundingBall& shell) {
+    sweep.emplace(field, box(), chord, margins, shell);
   }
-}
+
+  bool sortsPoints() const { return !sweep->isLong(); }
+
+  void test(SphereGroup& group) {
+    if (adaptive) {
+      sweepSpheres(*adaptive, *sweep, group, work);
+    } else {
+      sweepSpheres(*uniform, *sweep, group, work);
+    }
+  }
+};
 
 #else
 
 struct SphereSides::Vectors {
   static Vectors* of(const DistanceField& /*field*/) { return nullptr; }
+  void begin(const DistanceField& /*field*/, const Chord& /*chord*/, const SweptMargins& /*margins*/,
+             const BoundingBall& /*shell*/) {}
+  bool sortsPoints() const { return false; }
+  void test(SphereGroup& /*group*/) {}
 };
-
-void SphereSides::begin(const Chord& chord) {
-  chord_ = &chord;
-}
-
-bool SphereSides::sortsPoints() const {
-  return false;
-}
-
-void SphereSides::testGroup() {
-  for (int i = 0; i < group_.size; ++i) group_.side[i] = static_cast<std::int32_t>(SweptSide::kUnknown);
-}
 
 #endif
 
 SphereSides::SphereSides(const DistanceField& field, const SweptMargins& margins, const BoundingBall& shell)
     : field_(field), margins_(margins), shell_(shell), group_(threadGroup()), vectors_(Vectors::of(field)) {}
 
+void SphereSides::begin(const Chord& chord) {
+  chord_ = &chord;
+  if (const Primitive* primitive = field_.primitive()) primitive_.emplace(*primitive, chord, margins_, shell_);
+  if (vectors_) vectors_->begin(field_, chord, margins_, shell_);
+}
+
 SweptSide SphereSides::of(const Vector3d& center_P, double radius) const {
   return sweptSide(field_, along(*chord_, center_P), {radius + margins_.outside, radius + margins_.inside});
+}
+
+bool SphereSides::sortsPoints() const {
+  return primitive_ || (vectors_ && vectors_->sortsPoints());
+}
+
+void SphereSides::testGroup() {
+  if (primitive_) {
+    primitive_->test(group_);
+  } else if (vectors_) {
+    vectors_->test(group_);
+  } else {
+    for (int i = 0; i < group_.size; ++i) group_.side[i] = static_cast<std::int32_t>(SweptSide::kUnknown);
+  }
 }
 
 }  // namespace sdf_ccd

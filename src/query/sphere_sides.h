@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "primitive_spheres.h"
 #include "query/lanes/sphere_lanes.h"
 
 namespace sdf_ccd {
@@ -19,7 +22,7 @@ class SphereSides {
   SweptSide of(const Vector3d& center_P, double radius) const;
 
   /// Whether groups are tested in vectors: each sphere of a group then costs a few times less.
-  bool inVectors() const { return vectors_ != nullptr; }
+  bool inVectors() const { return vectors_ || field_.primitive(); }
 
   /// Whether it is faster to test points in groups too: not on long paths, which need an empty sphere every few units.
   bool sortsPoints() const;
@@ -36,7 +39,8 @@ class SphereSides {
   BoundingBall shell_;
   const Chord* chord_ = nullptr;
   SphereGroup& group_;
-  Vectors* vectors_ = nullptr;  ///< this thread's
+  std::optional<PrimitiveSpheres> primitive_;
+  Vectors* vectors_ = nullptr;  ///< this thread's, for grids
 };
 
 }  // namespace sdf_ccd

@@ -27,6 +27,10 @@ std::vector<DistanceField> buildFields() {
   add(torus, 0, 1e-3);
   add(torus, 48, 0.0);
   add(torus, 0, 4e-3);
+  all.emplace_back(Sphere{0.15});
+  all.emplace_back(Box{{0.2, 0.1, 0.05}});
+  all.emplace_back(Cylinder{0.1, 0.2});
+  all.emplace_back(HalfSpace{Vector3d(1, 2, 3).normalized(), 0.05});
   return all;
 }
 
@@ -40,7 +44,7 @@ Chord chordOf(Random& random, double reach, double turn, double travel) {
   return {0.0, 1.0, start, test::pose(random, turn, travel) * start, 0};
 }
 
-/// Fills a group with spheres of all sizes, and points; most of them near the torus.
+/// Fills a group with spheres of all sizes, and points; most of them near the surfaces.
 void fill(SphereGroup& group, Random& random, std::vector<std::pair<Vector3d, double>>& spheres) {
   spheres.clear();
   group.size = 0;
