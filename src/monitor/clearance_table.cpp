@@ -1,8 +1,10 @@
 #include "clearance_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -236,6 +238,37 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
   return quiet;
 }
 
+bool isOfWorld(const Scene& scene, const PlannedPair& pair) {
+  return scene.bodies[pair.body_a].is_world || scene.bodies[pair.body_b].is_world;
+}
+
+/// A pair's slots: the one whose rows its block holds, and the one in the block's group.
+struct BlockedSlots {
+  std::size_t one, other;
+};
+
+/// The one is the robot's body, if the other is the world's. Between two groups of the robot, the ones are in the group
+/// with fewer bodies that have such pairs: there are as many blocks as ones.
+std::vector<BlockedSlots> blockedSlots(const Scene& scene, const BodyTwists& bodies) {
+  std::vector<BlockedSlots> pairs;
+  std::map<std::pair<std::size_t, std::size_t>, std::array<std::set<std::size_t>, 2>> between;  // two groups
+  for (const PlannedPair& pair : scene.pairs) {
+    const auto [one, other] = std::minmax({bodies.slot(pair.body_a), bodies.slot(pair.body_b)});
+    pairs.push_back({one, other});
+    if (isOfWorld(scene, pair)) continue;
+    auto& [ones, others] = between[{twistGroup(one), twistGroup(other)}];
+    ones.insert(one);
+    others.insert(other);
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    auto& [one, other] = pairs[i];
+    if (isOfWorld(scene, scene.pairs[i]) || twistGroup(one) == twistGroup(other)) continue;
+    const auto& [ones, others] = between.at({twistGroup(one), twistGroup(other)});
+    if (others.size() < ones.size()) std::swap(one, other);
+  }
+  return pairs;
+}
+
 float roundedDown(double x) {
   const auto rounded = static_cast<float>(x);
   return double(rounded) <= x ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
@@ -247,9 +280,7 @@ ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : m
   using Key = std::pair<std::int32_t, std::int32_t>;  // PairBlock::rows_a and group
   std::vector<std::pair<Key, std::size_t>> placed;    // per pair: its block and lane
   std::map<Key, std::size_t> known;                   // blocks
-  for (const PlannedPair& pair : scene.pairs) {
-    std::size_t one = bodies.slot(pair.body_a), other = bodies.slot(pair.body_b);
-    if (one > other) std::swap(one, other);
+  for (const auto& [one, other] : blockedSlots(scene, bodies)) {
     const Key key(twistOffset(one), twistGroup(other));
     placed.emplace_back(key, other % kTwistLanes);
     known.emplace(key, 0);
