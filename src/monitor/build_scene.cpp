@@ -131,14 +131,14 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   return scene;
 }
 
-void leaveOut(const std::vector<std::string>& reasons, Scene& scene) {
+void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene) {
   std::vector<PlannedPair> kept;
   for (std::size_t p = 0; p < scene.pairs.size(); ++p) {
     const PlannedPair& pair = scene.pairs[p];
-    if (reasons[p].empty()) {
+    if (reasons[p].text.empty()) {
       kept.push_back(pair);
     } else {
-      scene.left_out.push_back({"pair " + pairName(scene, pair), reasons[p], pair.body_a, pair.body_b});
+      scene.left_out.push_back({"pair", pairName(scene, pair), reasons[p], pair.body_a, pair.body_b});
     }
   }
   if (kept.size() == scene.pairs.size()) return;

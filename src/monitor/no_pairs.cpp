@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <map>
-
-#include "model/overlap_reason.h"
-
 namespace sdf_ccd {
 
 std::string whyNoPairs(const Scene& scene) {
   if (!scene.pairs.empty()) return {};
   std::map<std::string, std::size_t> count;  // of pairs by reason
   for (const LeftOut& left_out : scene.left_out)
-    if (left_out.body_a >= 0) ++count[sharedReason(left_out.reason).text];
+    if (left_out.isPair()) ++count[left_out.reason.text];
   const std::string begin = "nothing is checked: ";
   if (!count.empty()) {
     const auto most =

@@ -36,14 +36,15 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
   for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
   std::set<std::pair<int, int>> kept;
   for (const PlannedPair& pair : scene.pairs) kept.emplace(pair.body_a, pair.body_b);
-  std::map<std::pair<int, int>, const std::string*> reasons;
+  std::map<std::pair<int, int>, LeftOutReason> reasons;
   for (const LeftOut& left_out : scene.left_out)
-    reasons.emplace(std::pair(left_out.body_a, left_out.body_b), &left_out.reason);
+    reasons.emplace(std::pair(left_out.body_a, left_out.body_b), left_out.reason);
   for (const PlannedPair& pair : plan.pairs) {
     if (kept.count({pair.body_a, pair.body_b}) > 0) continue;
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
-    const auto reason = reasons.find({pair.body_a, pair.body_b});
-    description.allowed.push_back({a, b, reason == reasons.end() ? "left out" : *reason->second});
+    const auto known = reasons.find({pair.body_a, pair.body_b});
+    const LeftOutReason reason = known == reasons.end() ? LeftOutReason{"left out"} : known->second;
+    description.allowed.push_back({a, b, reason.text, false, reason.depth});
   }
   return description;
 }

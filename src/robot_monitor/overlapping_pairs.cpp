@@ -8,7 +8,6 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "model/name_pair.h"
-#include "model/overlap_reason.h"
 #include "robot/joint_sampler.h"
 #include "sdf_ccd/common/cancel.h"
 #include "state_verdicts.h"
@@ -149,7 +148,7 @@ void applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& s
   constexpr std::size_t kStates = 200;
   const std::string states = "in all of " + std::to_string(kStates) + " random states";
   std::vector<OverlappingPair> left_out, checked, kept, open;
-  std::vector<std::string> reasons(scene.pairs.size());
+  std::vector<LeftOutReason> reasons(scene.pairs.size());
   for (const OverlappingPair& pair : overlappingPairs(robot, scene, rule.leave_out ? kStates : 0)) {
     if (pair.overlap == Overlap::kOpen) {
       open.push_back(pair);
@@ -159,11 +158,10 @@ void applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& s
     const bool stays = matchesAny(rule.kept, scene.bodies[planned.body_a].name, scene.bodies[planned.body_b].name);
     (stays ? kept : pair.always ? left_out : checked).push_back(pair);
     if (stays || !pair.always) continue;
-    std::string& reason = reasons[static_cast<std::size_t>(pair.pair)];
-    reason = pair.overlap == Overlap::kTouching
-                 ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm " + states
-                 : overlapReason(pair.depth, "overlap or, as neighbours, come within 1 mm " + states);
-    reason += ", which is no proof for others";
+    const std::string reason = pair.overlap == Overlap::kTouching
+                                   ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm " + states
+                                   : "overlap at rest and overlap or, as neighbours, come within 1 mm " + states;
+    reasons[static_cast<std::size_t>(pair.pair)] = {reason + ", which is no proof for others", pair.depth};
   }
   const std::string overlap = "overlap, or as neighbours come within 1 mm, ";
   if (!left_out.empty())

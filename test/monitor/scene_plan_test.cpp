@@ -23,7 +23,7 @@ std::vector<bool> which(const ScenePlan& plan, bool BodyNeeds::*need) {
 
 std::string reasonOf(const ScenePlan& plan, const std::string& what) {
   for (const LeftOut& item : plan.left_out)
-    if (item.what == what) return item.reason;
+    if (item.what() == what) return item.reason.text;
   return "";
 }
 
@@ -158,7 +158,7 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});
   EXPECT_FALSE(two.needs[0].shell);
   ASSERT_EQ(two.left_out.size(), 2U);
-  EXPECT_EQ(two.left_out[0].what, "shell of table");
+  EXPECT_EQ(two.left_out[0].what(), "shell of table");
 }
 
 TEST(ScenePlan, LargeBoxKeepsItsEdges) {
@@ -181,6 +181,13 @@ TEST(ScenePlan, TableNamesLinksThatAreOnlySeen) {
   const std::string table = planTable(*build(description));
   EXPECT_NE(table.find("not checked, as they have a visual but no collision shape:\n  cover lid\n"), std::string::npos)
       << table;
+}
+
+TEST(ScenePlan, TableKeepsAnyNameOfALinkThatIsLeftOut) {
+  const std::string table =
+      planTable(*build({{body("of lid", kBall), body("base", kBall)}, {{"of lid", "base", "why"}}}));
+  EXPECT_NE(table.find("  1 pair, why: of lid - base\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("  2 shells, no pair needs it: of lid, base\n"), std::string::npos) << table;
 }
 
 }  // namespace

@@ -347,12 +347,13 @@ TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
   const BodyOptions options = coarse();
   const ScenePlan plan = planOf(description, options);
   Scene scene = buildScene(description, plan, options);
-  leaveOut({"", "overlap", ""}, scene);
+  leaveOut({{}, {"overlap", 0.02}, {}}, scene);
   WorldEditor editor(options);
   const auto first = editor.begin(description, plan, scene);
   const auto second = editor.next(*first->description);
   ASSERT_EQ(second->scene->pairs.size(), 2U);
   EXPECT_EQ(second->description->allowed.back().reason, "overlap");
+  EXPECT_EQ(second->scene->left_out.back().reason.depth, 0.02);
   EXPECT_EQ(second->prepared, 0);
 }
 

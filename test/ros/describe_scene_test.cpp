@@ -41,7 +41,7 @@ std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<s
   for (const PlannedPair& pair : scene->pairs)
     pairs.insert(scene->bodies[pair.body_a].name + " " + scene->bodies[pair.body_b].name);
   if (left_out)
-    for (const LeftOut& entry : scene->left_out) left_out->push_back(entry.what + ": " + entry.reason);
+    for (const LeftOut& entry : scene->left_out) left_out->push_back(entry.what() + ": " + entry.reason.text);
   if (warnings) *warnings = scene->warnings;
   return pairs;
 }
@@ -115,7 +115,7 @@ TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {
   EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
   EXPECT_EQ(
       std::count_if(left_out.begin(), left_out.end(),
-                    [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest, ", 0) == 0; }),
+                    [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest and ", 0) == 0; }),
       1);
 }
 

@@ -58,6 +58,7 @@ struct AllowedPair {
   std::string body_b;
   std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
   bool proved = false;  ///< their bodies can never meet: rigidly joined, or out of reach
+  double depth = 0.0;   ///< if they overlap at rest: of the deepest point found there [m]
 };
 
 /// A pair that a scene leaves out although it needs a check.

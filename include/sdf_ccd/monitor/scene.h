@@ -26,11 +26,21 @@ struct PlannedPair {
   bool b_witnesses_a_field = false;
 };
 
+/// Why something is left out.
+struct LeftOutReason {
+  std::string text;    ///< empty: it is not left out
+  double depth = 0.0;  ///< as AllowedPair::depth [m]
+};
+
 /// A pair, field or shell that a plan leaves out.
 struct LeftOut {
-  std::string what;  ///< "pair a - b", "shell of map", "field of ground"
-  std::string reason;
+  std::string kind;  ///< "pair", "field", "shell", "full-shell"
+  std::string name;  ///< "a - b", or that of a body
+  LeftOutReason reason;
   int body_a = -1, body_b = -1;  ///< of a pair
+
+  bool isPair() const { return body_a >= 0; }
+  std::string what() const { return kind + (isPair() ? " " : " of ") + name; }  ///< "pair a - b", "shell of map"
 };
 
 struct SceneCost;
@@ -105,7 +115,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
 
 /// Removes pairs from a scene that is built; bodies stay unchanged.
 /// @param reasons  per pair: why it is removed; empty if it stays.
-void leaveOut(const std::vector<std::string>& reasons, Scene& scene);
+void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene);
 
 /// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies.
 /// @param motion_margin  as in BodyOptions [m].

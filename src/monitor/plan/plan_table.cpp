@@ -4,7 +4,6 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
-#include "model/overlap_reason.h"
 #include "monitor/no_pairs.h"
 #include "monitor/pair_bound.h"
 #include "scene_totals.h"
@@ -50,14 +49,10 @@ std::string leftOutLines(const std::vector<LeftOut>& left_out) {
   };
   std::map<std::pair<std::string, std::string>, Group> groups;
   for (const LeftOut& item : left_out) {
-    const std::size_t space = item.what.find(' ');
-    const std::string kind = item.what.substr(0, space);
-    const std::size_t name = item.what.compare(space, 4, " of ") == 0 ? space + 4 : space + 1;
-    const SharedReason reason = sharedReason(item.reason);
-    Group& group = groups[{kind, reason.text}];
-    group.names.push_back(item.what.substr(std::min(name, item.what.size())));
-    if (reason.depth.empty()) continue;
-    group.names.back() += " (" + reason.depth + ")";
+    Group& group = groups[{item.kind, item.reason.text}];
+    group.names.push_back(item.name);
+    if (!(item.reason.depth > 0.0)) continue;
+    group.names.back() += " (" + lengthText(item.reason.depth) + ")";
     group.most = kNamedDepths;
   }
   std::string text;

@@ -50,17 +50,17 @@ bool isBox(const BodyDescription& body) {
   return primitive && std::holds_alternative<Box>(*primitive);
 }
 
-std::map<NamePair, std::string> allowedPairs(const SceneDescription& description) {
+std::map<NamePair, LeftOutReason> allowedPairs(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
     if (!names.insert(body.name).second)
       throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
   }
-  std::map<NamePair, std::string> reasons;
+  std::map<NamePair, LeftOutReason> reasons;
   for (const AllowedPair& pair : description.allowed) {
     if (pair.body_a == pair.body_b)
       throw std::invalid_argument("scene: an allowed pair names \"" + pair.body_a + "\" twice");
-    reasons.emplace(namePair(pair.body_a, pair.body_b), pair.reason);
+    reasons.emplace(namePair(pair.body_a, pair.body_b), LeftOutReason{pair.reason, pair.depth});
   }
   return reasons;
 }
@@ -71,14 +71,14 @@ bool isPlanned(const BodyDescription& body) {
 }
 
 /// Why the pair is not tested; empty if it is.
-std::string whyLeftOut(const BodyDescription& a, const BodyDescription& b,
-                       const std::map<NamePair, std::string>& allowed) {
+LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
+                         const std::map<NamePair, LeftOutReason>& allowed) {
   const auto found = allowed.find(namePair(a.name, b.name));
   if (found != allowed.end()) return found->second;
-  if (a.frame == b.frame) return "in the same frame";
+  if (a.frame == b.frame) return {"in the same frame"};
   if (!isPlanned(a) || !isPlanned(b)) return {};
-  if (a.geometry.empty() || b.geometry.empty()) return "without collision geometry";
-  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return "neither has a surface that can be sampled";
+  if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
+  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return {"neither has a surface that can be sampled"};
   return {};
 }
 
@@ -133,15 +133,15 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
   if (no_shell.empty() && planned.is_large && planned.has_pair)
     no_shell = "large; the shells of smaller bodies suffice";
   const std::string idle = planned.has_pair ? "the others of its pairs cannot be checked" : "no pair needs it";
-  if (!needs.field) left_out.push_back({"field of " + body.name, needs.shell ? "used only as a shell" : idle});
-  if (needs.edges_only) left_out.push_back({"full-shell of " + body.name, no_shell});
-  if (!needs.shell) left_out.push_back({"shell of " + body.name, no_shell.empty() ? idle : no_shell});
+  if (!needs.field) left_out.push_back({"field", body.name, {needs.shell ? "used only as a shell" : idle}});
+  if (needs.edges_only) left_out.push_back({"full-shell", body.name, {no_shell}});
+  if (!needs.shell) left_out.push_back({"shell", body.name, {no_shell.empty() ? idle : no_shell}});
 }
 
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
-  const std::map<NamePair, std::string> allowed = allowedPairs(description);
+  const std::map<NamePair, LeftOutReason> allowed = allowedPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs.assign(count, {false, false, false, false});
@@ -159,11 +159,11 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     for (int k = i + 1; k < count; ++k) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
       if (a.is_world && b.is_world) continue;
-      const std::string reason = whyLeftOut(a, b, allowed);
-      if (reason.empty()) {
+      const LeftOutReason reason = whyLeftOut(a, b, allowed);
+      if (reason.text.empty()) {
         plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
       } else {
-        plan.left_out.push_back({"pair " + pairName(a.name, b.name), reason, i, k});
+        plan.left_out.push_back({"pair", pairName(a.name, b.name), reason, i, k});
       }
     }
   }

@@ -34,18 +34,20 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   constexpr std::size_t kMaxReasons = 65535;
   std::map<std::string, std::uint16_t> reasons;
   for (const LeftOut& left_out : scene.left_out) {
-    if (left_out.body_a < 0) {
-      plan.parts_left_out.push_back(left_out.what);
-      plan.part_reasons.push_back(left_out.reason);
+    const auto& [text, depth] = left_out.reason;
+    if (!left_out.isPair()) {
+      plan.parts_left_out.push_back(left_out.what());
+      plan.part_reasons.push_back(text);
       continue;
     }
     const bool is_full = plan.reasons.size() >= kMaxReasons;
-    const auto [known, is_new] = reasons.emplace(is_full ? plan.reasons.back() : left_out.reason,
-                                                 static_cast<std::uint16_t>(plan.reasons.size()));
+    const auto [known, is_new] =
+        reasons.emplace(is_full ? plan.reasons.back() : text, static_cast<std::uint16_t>(plan.reasons.size()));
     if (is_new) plan.reasons.push_back(known->first);
     plan.left_out_a.push_back(static_cast<std::uint32_t>(left_out.body_a));
     plan.left_out_b.push_back(static_cast<std::uint32_t>(left_out.body_b));
     plan.left_out_reason.push_back(known->second);
+    plan.left_out_depth.push_back(depth);
   }
   plan.pairs_of_objects = pairsOfObjects(scene.bodies);
   plan.visual_only = scene.visual_only;
