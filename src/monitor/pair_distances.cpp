@@ -11,14 +11,15 @@
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
 #include "query/shell_distance.h"
+#include "query/surfaces/moving_boxes.h"
 #include "query/surfaces/plane_separation.h"
 #include "query/surfaces/surface_distance.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// Bound of the rounding error of a distance between triangles, relative to the size of the bodies: see
-/// surfaceDistance().
+/// Bound of the error of a distance between triangles, beyond triangleRounding(), relative to the size of the bodies:
+/// see surfaceDistance().
 constexpr double kTriangleError = 1e-7;
 
 constexpr double kSameTime = 1e-8;  // some times the rounding of time stamps [s]
@@ -181,9 +182,10 @@ bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometr
   const BodyHalfSpace plane = halfSpaceOf(scene_->bodies[plane_is_a ? pair.body_a : pair.body_b]);
   const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
   const double deviation = verdictBound(*scene_, pair).total() + plane.deviation;
-  const double accuracy = kTriangleError * surface.ball().radius;
-  const LowestPoint lowest =
-      lowestPoint(plane.half_space, surface, relativePose(X_WF, X_WP), accuracy, pairs_[i].witness, memory_);
+  const Isometry3d X_FP = relativePose(X_WF, X_WP);
+  const double accuracy =
+      kTriangleError * surface.ball().radius + heightRounding(plane.half_space, surface, {X_FP, X_FP});
+  const LowestPoint lowest = lowestPoint(plane.half_space, surface, X_FP, accuracy, pairs_[i].witness, memory_);
   const double error = deviation + accuracy + (lowest.height - lowest.at_least);
   if (!(lowest.height <= range + error)) return false;
   const Vector3d up_W = X_WF.linear() * plane.half_space.normal;
@@ -206,7 +208,8 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
   const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
   const double deviation = verdictBound(*scene_, pair).total();
-  const double error = deviation + kTriangleError * (a.ball().radius + b.ball().radius);
+  const double error =
+      deviation + kTriangleError * (a.ball().radius + b.ball().radius) + triangleRounding(a, b, {X_AB, X_AB});
   const auto nearest = surfaceDistance(a, b, X_AB, range + error, pairs_[i].witness, memory_);
   if (!nearest) return false;
   found.distance = nearest->distance;

@@ -247,6 +247,43 @@ TEST(PairDistancesOf, AnObjectWithAPlaneAndMoreItsPlaneIsHeldByNoBall) {
   }
 }
 
+/// Their coordinates are rounded by more than 1e-7 of their size then.
+TEST(PairDistancesOf, TinyBodiesFarFromTheirFramesAreTrue) {
+  constexpr double kSize = 5e-5, kFar = 1e6;
+  const TriangleMesh mesh = test::icosphere(kSize, 1);
+  const HalfSpace plane{Vector3d(0.6, 0.0, 0.8), 0.7 * kFar};
+  Random random(3);
+  for (const bool is_plane : {false, true}) {
+    const Vector3d center = is_plane ? Vector3d(plane.offset * plane.normal) : Vector3d(kFar * test::direction(random));
+    const Vector3d offset = kFar * test::direction(random);
+    const TriangleMesh a = test::translated(mesh, center), b = test::translated(mesh, offset);
+    const test::Shape still = is_plane ? test::Shape(Primitive(plane)) : test::meshShape(a);
+    const auto scene = test::build({test::body("still", still, true), test::body("moved", test::meshShape(b))},
+                                   test::fine(0.3 * kSize));
+    Monitor monitor(scene, test::soft());
+    PairDistances distances(scene);
+    for (int i = 0; i < 40; ++i) {
+      Isometry3d X_WB = test::pose(random, 3.0, 0.0);
+      const Vector3d way = is_plane ? plane.normal : test::direction(random);
+      X_WB.translation() = center + kSize * uniform(random, 2.1, 3.0) * way - X_WB.linear() * offset;
+      monitor.reset();
+      const CycleMotion motion = test::cycle(0.1, {test::still(Isometry3d::Identity()), test::still(X_WB)});
+      const auto& found = distances.update(motion, monitor.run(motion, {true, 0}), 1.0, {});
+      ASSERT_EQ(found.size(), 1u);
+      Real truth = 1e300L;
+      for (int k = 0; k < int(b.triangles.size()); ++k) {
+        const test::Triangle3r t = test::exact(cornersOf(b, k), X_WB);
+        for (int j = 0; j < 3 && is_plane; ++j)
+          truth = std::min(truth, plane.normal.cast<Real>().dot(t[j]) - Real(plane.offset));
+        for (int j = 0; j < int(a.triangles.size()) && !is_plane; ++j)
+          truth = std::min(truth, test::triangleDistance(test::exact(cornersOf(a, j)), t));
+      }
+      EXPECT_NEAR(found[0].distance, double(truth), found[0].error);
+      EXPECT_LE(found[0].any.width, truth);
+    }
+  }
+}
+
 TEST_F(PairDistancesTest, OfPairsThatAreDelayedTheLastOneStands) {
   const std::vector<Isometry3d> rest = {test::translation({0.4, 0, 0.5}), test::translation({0, 0, 0.5}),
                                         test::translation({-2, 0, 1.5}), Isometry3d::Identity()};

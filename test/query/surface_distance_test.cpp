@@ -102,5 +102,30 @@ TEST(SurfaceDistance, ASlabHasEitherSurfaceOnItsOwnSide) {
   EXPECT_GT(found, 10);
 }
 
+/// Far from their frames' origins, coordinates are rounded by more than boxes near each other are.
+TEST(SurfaceDistance, SlabsHoldFarFromTheOrigin) {
+  Random random(5);
+  int found = 0;
+  for (const double far : {1.0, 1e3, 1e6}) {
+    for (int i = 0; i < 100; ++i) {
+      constexpr double kHalf = 0.001;
+      const Vector3d a_center = far * test::direction(random), b_center = far * test::direction(random);
+      const BoxTree a = treeOf(test::translated(test::boxMesh({kHalf, kHalf, kHalf}), a_center));
+      const BoxTree b = treeOf(test::translated(test::icosphere(0.5 * kHalf, 1), b_center));
+      Isometry3d X_AB = test::pose(random, 3.0, 0.0);
+      const double distance = kHalf * std::pow(10.0, test::uniform(random, -6, -1));
+      X_AB.translation() = a_center + Vector3d(0, 0, 1.5 * kHalf + distance) - X_AB.linear() * b_center;
+      SeparationWitness witness;
+      SeparationMemory memory;
+      const auto nearest = surfaceDistance(a, b, X_AB, 1e3, witness, memory);
+      const auto width = slabBetween(a, b, X_AB, *nearest);
+      if (!width) continue;
+      ++found;
+      EXPECT_LE(*width, trueDistance(a, b, X_AB)) << far << " " << distance;
+    }
+  }
+  EXPECT_GT(found, 150);
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "common/infinity.h"
@@ -131,6 +132,15 @@ std::optional<RoundedTriangle> onlyTriangle(const BoxTree& tree, BoxTree::Slot s
 }
 
 }  // namespace
+
+double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
+  return 32.0 * std::numeric_limits<double>::epsilon() * coordinateSize(a, b, poses);
+}
+
+double coordinateSize(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
+  return a.origin().norm() + a.ball().radius + (poses.X_AB_start * b.origin()).norm() +
+         (poses.X_AB_end * b.origin()).norm() + b.origin().norm() + b.ball().radius;
+}
 
 MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error)
     : a_(a), b_(b), poses_(poses), error_(error) {

@@ -5,6 +5,13 @@
 
 namespace sdf_ccd {
 
+/// Upper bound of the rounding errors of distances between triangles, at either pose, along a direction [m]: 32 ε of
+/// the coordinates; see separation().
+double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses);
+
+/// Sum of the sizes of these coordinates, in both frames [m].
+double coordinateSize(const BoxTree& a, const BoxTree& b, const EndPoses& poses);
+
 /// Tests boxes of two trees while B moves relative to A, from one pose to another along chords: at the pose halfway,
 /// each box in the other tree's frame. See separation() for the proof.
 class MovingBoxes {

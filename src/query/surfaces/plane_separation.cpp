@@ -153,9 +153,7 @@ class PlaneQuery {
 
   Separation run() {
     const Isometry3d X_start = motion_.X_FP(0.0), X_end = motion_.X_FP(1.0);
-    const double size = (X_start * surface_.origin()).norm() + (X_end * surface_.origin()).norm() +
-                        surface_.origin().norm() + surface_.ball().radius + std::abs(half_space_.offset);
-    rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
+    rounding_ = heightRounding(half_space_, surface_, {X_start, X_end});
     found_.distance = kInfinity;
     const Low at_end = lowestAt(1.0, X_end, 1.0);
     if (!crossed_) testBetween({0.0, 1.0, lowestAt(0.0, X_start, 1.0), at_end});
@@ -231,6 +229,12 @@ class PlaneQuery {
 };
 
 }  // namespace
+
+double heightRounding(const HalfSpace& half_space, const BoxTree& surface, const EndPoses& poses) {
+  const double size = (poses.X_AB_start * surface.origin()).norm() + (poses.X_AB_end * surface.origin()).norm() +
+                      surface.origin().norm() + surface.ball().radius + std::abs(half_space.offset);
+  return 32.0 * std::numeric_limits<double>::epsilon() * size;
+}
 
 LowestPoint lowestPoint(const HalfSpace& half_space, const BoxTree& surface, const Isometry3d& X_FP, double accuracy,
                         SeparationWitness& witness, SeparationMemory& memory) {

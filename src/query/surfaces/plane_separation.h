@@ -10,9 +10,12 @@ namespace sdf_ccd {
 /// plane [m].
 struct LowestPoint {
   double height = 0.0;              ///< of `p_F`
-  double at_least = 0.0;            ///< lower bound of the height of all points of the surface, but for rounding
+  double at_least = 0.0;            ///< lower bound of the height of all points of the surface, up to heightRounding()
   Vector3d p_F = Vector3d::Zero();  ///< [m]
 };
+
+/// Upper bound of the rounding errors of heights at either pose [m]; see separation().
+double heightRounding(const HalfSpace& half_space, const BoxTree& surface, const EndPoses& poses);
 
 /// @param accuracy  `at_least` is lower than `height` by no more than this [m], or than 10⁻⁶ of the surface's radius if
 ///                  many triangles are that near to the lowest point.

@@ -46,12 +46,11 @@ class SeparationQuery {
   Separation run() {
     memory_.near.clear();
     const Isometry3d X_start = motion_.X_FP(0.0), X_end = motion_.X_FP(1.0);
-    const double size = a_.origin().norm() + a_.ball().radius + (X_start * b_.origin()).norm() +
-                        (X_end * b_.origin()).norm() + b_.origin().norm() + b_.ball().radius;
-    rounding_ = 32.0 * std::numeric_limits<double>::epsilon() * size;
-    crossing_margin_ = options_.margin + 1e-12 * size;
+    const EndPoses poses{X_start, X_end};
+    rounding_ = triangleRounding(a_, b_, poses);
+    crossing_margin_ = options_.margin + 1e-12 * coordinateSize(a_, b_, poses);
     if (crossedBefore(X_end)) return found_;
-    testBoxes({0.0, 1.0}, {X_start, X_end});
+    testBoxes({0.0, 1.0}, poses);
     if (crossed_ || open_ || isDone()) return found_;
     found_.state = SeparationState::kApart;
     found_.distance = lowest_;

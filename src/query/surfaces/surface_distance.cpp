@@ -16,7 +16,12 @@ class DistanceQuery {
  public:
   DistanceQuery(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB, double max_distance,
                 SeparationMemory& memory)
-      : a_(a), b_(b), X_AB_(X_AB), best_(max_distance), boxes_(a, b, {X_AB, X_AB}, 0.0), memory_(memory) {}
+      : a_(a),
+        b_(b),
+        X_AB_(X_AB),
+        best_(max_distance),
+        boxes_(a, b, {X_AB, X_AB}, triangleRounding(a, b, {X_AB, X_AB})),
+        memory_(memory) {}
 
   std::optional<SurfaceDistance> run(SeparationWitness& witness) {
     if (witness.near_a >= 0) test(witness.near_a, witness.near_b, witness);
@@ -109,7 +114,9 @@ std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& 
                                                double max_distance, SeparationWitness& witness,
                                                SeparationMemory& memory) {
   const double apart = (X_AB * b.origin() - a.origin()).norm() - a.ball().radius - b.ball().radius;
-  if (apart > max_distance + kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart))) return std::nullopt;
+  const double rounding =
+      kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart)) + triangleRounding(a, b, {X_AB, X_AB});
+  if (apart > max_distance + rounding) return std::nullopt;
   return DistanceQuery(a, b, X_AB, max_distance, memory).run(witness);
 }
 
@@ -118,7 +125,7 @@ std::optional<double> slabBetween(const BoxTree& a, const BoxTree& b, const Isom
   constexpr double kSlack = 0.05;  // of the distance, on either side
   if (!(nearest.distance > 0.0)) return std::nullopt;
   const Vector3d n = (nearest.q_A - nearest.p_A).normalized();
-  MovingBoxes boxes(a, b, {X_AB, X_AB}, 0.0);
+  MovingBoxes boxes(a, b, {X_AB, X_AB}, triangleRounding(a, b, {X_AB, X_AB}));
   boxes.setDirection(n);
   const double begin = n.dot(nearest.p_A - a.origin()), slack = kSlack * nearest.distance;
   const double reach_a = boxes.supportA(begin + slack);
