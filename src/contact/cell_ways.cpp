@@ -34,14 +34,16 @@ SDF_CCD_INLINE Vectors where(const Doubles& first, const Vectors& a, const Vecto
   return {first > zero ? a.x : b.x, first > zero ? a.y : b.y, first > zero ? a.z : b.z};
 }
 
-/// A unit vector along the gradient. @param bears  set to 0 where the field has no direction.
-SDF_CCD_INLINE Vectors direction(const std::array<Doubles, 8>& corners, const Vectors& at, const Doubles& per_side,
-                                 Doubles& bears) {
-  const Doubles zero = {}, one = zero + 1.0;
+SDF_CCD_INLINE Vectors gradientAt(const std::array<Doubles, 8>& corners, const Vectors& at) {
   const std::array<Doubles, 3> g = trilinearGradient(corners, at.x, at.y, at.z);
-  const Vectors gradient{g[0], g[1], g[2]};
+  return {g[0], g[1], g[2]};
+}
+
+/// A unit vector along a gradient. @param bears  set to 0 where its square is not above `least2`.
+SDF_CCD_INLINE Vectors direction(const Vectors& gradient, const Doubles& least2, Doubles& bears) {
+  const Doubles zero = {}, one = zero + 1.0;
   const Doubles squared = gradient.dot(gradient);
-  const auto has = squared * per_side * per_side > zero + kNoDirection2;
+  const auto has = squared > least2;
   bears = has ? bears : zero;
   return gradient * (one / squareRoot(has ? squared : one));
 }
@@ -74,11 +76,19 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   const std::array<Doubles, 4> c = cubicAlong<Doubles>(corners, {from.x, from.y, from.z}, {d.x, d.y, d.z});
   findMinima(c, depths);
 
-  const Doubles per_side = load(ways.per_side);
+  // As SmoothPiece::gradient().
+  const Vectors first = gradientAt(corners, from), last = gradientAt(corners, to),
+                middle = gradientAt(corners, from + d * (zero + 0.5));
+  const Doubles side = load(ways.side), least2 = side * side * kNoDirection2;
   Doubles bears = zero + 1.0;
-  const Vectors N_first = direction(corners, from, per_side, bears);
-  const Vectors N_last = direction(corners, to, per_side, bears);
-  const Vectors N = where(load(depths.u), N_last, N_first);
+  std::array<Vectors, kGaussNodes.size()> normals;
+  for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
+    const double s = kGaussNodes[i].s;
+    normals[i] = direction(first * (zero + (1.0 - s) * (1.0 - 2.0 * s)) + middle * (zero + 4.0 * s * (1.0 - s)) +
+                               last * (zero + s * (2.0 * s - 1.0)),
+                           least2, bears);
+  }
+  const Vectors N = direction(where(load(depths.u), last, first), least2, bears);
   store(bears, depths.bears);
   store(N.x, depths.normal[0]);
   store(N.y, depths.normal[1]);
@@ -86,12 +96,12 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
 
   const Doubles stiffness = bears * load(ways.stiffness) * duration, damping = bears * load(ways.damping);
   const Vectors start = load(ways.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
-  const Vectors step = load(ways.step), turn = N_last - N_first;
+  const Vectors step = load(ways.step);
   for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
     const Doubles s = zero + kGaussNodes[i].s;
     const Doubles value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
     // Eq. 3 and 10, as in Integrator::addNode().
-    const Vectors bearing = (N_first + turn * s) * (-kGaussNodes[i].weight * stiffness * smaller(value, zero));
+    const Vectors bearing = normals[i] * (-kGaussNodes[i].weight * stiffness * smaller(value, zero));
     const Vectors impulse = bearing - step * (kGaussNodes[i].weight * damping);
     addTo(sums[i].impulse, impulse);
     addTo(sums[i].angular, (start + step * s).cross(impulse));

@@ -18,7 +18,7 @@ struct CellWays {
 
   std::array<Column, 8> corners = {};           ///< of the cell [m]
   std::array<Column, 3> from = {}, to = {};     ///< in the cell, [0, 1]³
-  Column per_side = {};                         ///< [1/m]
+  Column side = {};                             ///< of the cell [m]
   std::array<Column, 3> start = {}, step = {};  ///< as ChordPoint
   Column stiffness = {};                        ///< [N/m]; 0, like the damping, in lanes that are not used
   Column damping = {};                          ///< [N·s/m]
@@ -29,13 +29,13 @@ struct CellDepths {
   CellWays::Column u;                      ///< time, [0, 1]
   CellWays::Column value;                  ///< [m]
   std::array<CellWays::Column, 3> normal;  ///< the field's at u, if that is 0 or 1
-  CellWays::Column bears;  ///< 1; 0 if the field has no direction at an end of the way: nothing has been added
+  CellWays::Column bears;                  ///< 1; 0 if the field has no direction somewhere: nothing has been added
 };
 
 /// Adds up the impulses of such points along one chord after another.
 class CellImpulses {
  public:
-  /// Adds the impulses of all lanes, N linear along each way. @param duration  of the chord [s].
+  /// Adds the impulses of all lanes, N as the field has it. @param duration  of the chord [s].
   void add(const CellWays& ways, double duration, CellDepths& depths);
 
   /// Adds what has been added here during a chord to what other points bear, and forgets it.

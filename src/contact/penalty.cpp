@@ -96,7 +96,7 @@ class Integrator {
       ways_.start[k][lane] = point.start[k];
       ways_.step[k][lane] = point.step[k];
     }
-    ways_.per_side[lane] = 1.0 / field_.side();
+    ways_.side[lane] = field_.side();
     ways_.stiffness[lane] = shareOf(hit) * options_.stiffness;
     ways_.damping[lane] = shareOf(hit) * options_.damping;
     if (++pending_count_ == CellWays::kCount) addWays();
@@ -262,12 +262,10 @@ class Integrator {
     if (deepest_.offerMinimum(s, lowest.value) && (lowest.u == 0.0 || lowest.u == 1.0))
       end_ = {s, lowest.u == 0.0 ? piece_.gradient_first : piece_.gradient_last};
     if (!request_.impulse) return;
-    // N is nearly linear where d is cubic, in a cell.
-    const Vector3d N_first = normal(point, from, piece_.gradient_first);
-    const Vector3d N_last = normal(point, to, piece_.gradient_last);
-    for (const QuadratureNode& node : kGauss)
-      addNode(point, {from + node.s * length, node.weight * length}, piece_.distance(node.s),
-              (1.0 - node.s) * N_first + node.s * N_last);
+    for (const QuadratureNode& share : kGauss) {
+      const QuadratureNode node{from + share.s * length, share.weight * length};
+      addNode(point, node, piece_.distance(share.s), normal(point, node.s, piece_.gradient(share.s)));
+    }
   }
 
   void offer(const ChordPoint& point, double s) { deepest_.offer(s, valueAt(point, s)); }

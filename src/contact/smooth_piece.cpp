@@ -10,7 +10,7 @@ namespace {
 /// The distance from a plane.
 void readPlane(const HalfSpace& plane, const Vector3d& from, const Vector3d& to, SmoothPiece& piece) {
   piece.distance = {{plane.normal.dot(from) - plane.offset, plane.normal.dot(to - from), 0.0, 0.0}};
-  piece.gradient_first = piece.gradient_last = plane.normal;
+  piece.gradient_first = piece.gradient_middle = piece.gradient_last = plane.normal;
 }
 
 /// The plane to which a point inside is nearest; none if the surface is not made of planes.
@@ -56,6 +56,7 @@ void SmoothPieceReader::readCell(const CellLine& line, SmoothPiece& piece) const
   const double per_side = 1.0 / cells_.side();
   piece.distance = cellCubic(cells_.corners(), line.from, line.to, 0.0);
   piece.gradient_first = per_side * trilinearGradient(cells_.corners(), line.from);
+  piece.gradient_middle = per_side * trilinearGradient(cells_.corners(), 0.5 * (line.from + line.to));
   piece.gradient_last = per_side * trilinearGradient(cells_.corners(), line.to);
 }
 

@@ -8,9 +8,16 @@ namespace sdf_ccd {
 /// A field along a straight piece of a path on which the distance is a cubic: in a cell of a grid, next to one face of
 /// a box, in a half-space.
 struct SmoothPiece {
-  CellCubic distance;       ///< [m], of u from 0 at the piece's start to 1 at its end
-  Vector3d gradient_first;  ///< at its start
-  Vector3d gradient_last;   ///< at its end
+  CellCubic distance;        ///< [m], of u from 0 at the piece's start to 1 at its end
+  Vector3d gradient_first;   ///< at its start
+  Vector3d gradient_middle;  ///< halfway
+  Vector3d gradient_last;    ///< at its end
+
+  /// At u: along a line, the gradient of a trilinear function is quadratic.
+  Vector3d gradient(double u) const {
+    return (1.0 - u) * (1.0 - 2.0 * u) * gradient_first + 4.0 * u * (1.0 - u) * gradient_middle +
+           u * (2.0 * u - 1.0) * gradient_last;
+  }
 };
 
 /// Reads such pieces from one field. Successive pieces are mostly in the same cell, which is read once.

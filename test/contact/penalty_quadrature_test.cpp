@@ -37,14 +37,34 @@ TEST(Penalty, ExactRuleIntegratesTheInterpolatedField) {
   EXPECT_LT(midpoint_error, 1e-2 * size);
 }
 
-TEST(Penalty, LinearNormalsAreCloseToTheFieldsOwn) {
-  ContactOptions exact = perArea(), dense = perArea();
-  dense.quadrature = Quadrature::kMidpoint;
+/// Inside a box the direction to the nearest face changes at once: where it does, that of a sampled field turns by up
+/// to a right angle within one cell.
+TEST(Penalty, ExactRuleFollowsNormalsThatTurnWithinACell) {
+  const Primitive box = Box{{0.35, 0.33, 0.31}};
+  const auto inBox =
+      sampledFunction([&](const Vector3d& p) { return signedDistance(box, p); }, Vector3i::Ones(), 0.1, 1.0);
+  ContactOptions exact = perArea(), twenty = perArea(), dense = perArea();
+  twenty.quadrature = dense.quadrature = Quadrature::kMidpoint;
   dense.midpoint_intervals = 10000;
-  const ContactCase crossing{curvedField(), onePoint({0.05, -0.12, 0}, -Vector3d::UnitZ()),
-                             oneChord(0.1, translation({0, 0, 0.35}), translation({0.1, 0.2, -0.25}))};
-  const Vector3d reference = crossing.run(dense).on_shell_body.force, found = crossing.run(exact).on_shell_body.force;
-  EXPECT_LT((found - reference).norm(), 1e-3 * reference.norm());
+  Random random(9);
+  for (const DistanceField& field : {curvedField(), inBox}) {
+    double worst = 0.0, sum = 0.0, midpoint_sum = 0.0, size = 0.0;
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d from = pointInCube(random, 0.3);
+      const Vector3d to = from + std::pow(10.0, uniform(random, -3.0, -0.5)) * direction(random);
+      const ContactCase moving{field, onePoint(Vector3d::Zero(), -Vector3d::UnitZ()),
+                               oneChord(0.1, translation(from), translation(to))};
+      const Vector3d reference = moving.run(dense).on_shell_body.force;
+      const double error = (moving.run(exact).on_shell_body.force - reference).norm();
+      worst = std::max(worst, error / (reference.norm() + 1e-3 * kStiffness));
+      sum += error;
+      midpoint_sum += (moving.run(twenty).on_shell_body.force - reference).norm();
+      size += reference.norm();
+    }
+    EXPECT_LT(worst, 1e-3);
+    EXPECT_LT(sum, 1e-4 * size);
+    EXPECT_GT(midpoint_sum, 10.0 * sum);
+  }
 }
 
 /// Deep in a cylinder or ball the nearest face changes at once, or the direction to it within a short part of the path.

@@ -23,10 +23,13 @@ std::vector<DistanceField> fields() {
           buildField(boxMesh(kHalf), uniform), buildField(boxMesh(kHalf), adaptive)};
 }
 
-/// The field's own values along the piece, and its own gradients at the ends.
+/// The field's own values and gradients along the piece.
 void expectThatOf(const DistanceField& field, const Vector3d& from, const Vector3d& to, const SmoothPiece& piece) {
   for (const double u : {1e-6, 0.3, 0.5, 0.8, 1.0 - 1e-6})
     ASSERT_NEAR(piece.distance(u), field.interpolate(from + u * (to - from)).value, 1e-9)
+        << from.transpose() << " to " << to.transpose();
+  for (const double u : {1e-3, 0.3, 0.5, 0.8, 0.999})
+    ASSERT_LT((piece.gradient(u) - field.interpolate(from + u * (to - from)).gradient).norm(), 1e-6)
         << from.transpose() << " to " << to.transpose();
   const Vector3d first = field.interpolate(from + 1e-6 * (to - from)).gradient;
   const Vector3d last = field.interpolate(to + 1e-6 * (from - to)).gradient;
