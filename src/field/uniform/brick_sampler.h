@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <optional>
 
 #include "field/near_triangles.h"
@@ -16,8 +17,11 @@ class BrickSampler {
 
   const SignedSurface& surface() const { return index_ ? index_->exact() : *surface_; }
 
-  /// All samples of a brick.
-  void fill(const Vector3i& brick, float* samples) const;
+  /// Which of a brick's samples to compute, x fastest.
+  using Wanted = std::bitset<GridShape::kSamples>;
+
+  /// Sets the samples of a brick that are wanted [m].
+  void fill(const Vector3i& brick, const Wanted& wanted, float* samples) const;
 
  private:
   /// A cube of a brick: first cell and side, in cells.
@@ -35,10 +39,13 @@ class BrickSampler {
     return {point(brick, center), block.side * shape_.cell};
   }
 
-  void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, float* samples) const;
+  void fill(const Vector3i& brick, const Block& block, const NearTriangles& near, const Wanted& wanted,
+            float* samples) const;
   /// For triangles that are small compared with cells, where the lists would be long: searches the tree for each
   /// sample, starting from its neighbour's triangle.
-  void fillFromTree(const Vector3i& brick, float* samples) const;
+  void fillFromTree(const Vector3i& brick, const Wanted& wanted, float* samples) const;
+  /// Makes the distances of samples that are inside negative.
+  void setSigns(const Vector3i& brick, const Wanted& wanted, float* samples) const;
 
   std::optional<SurfaceIndex> index_;  ///< unless triangles are small compared with cells
   std::optional<SignedSurface> surface_;

@@ -11,6 +11,7 @@
 #include "field/cube_corner.h"
 #include "field/grid_cell.h"
 #include "field/spread_order.h"
+#include "shared_samples.h"
 #include "uniform_shape.h"
 
 namespace sdf_ccd {
@@ -87,11 +88,13 @@ std::shared_ptr<const SparseGrid> buildUniform(const Solid& solid, const FieldOp
   parallelFor(std::size_t{0}, sampled.size(), [&](std::size_t k) {
     const std::size_t i = order[k], first = i * GridShape::kSamples;
     std::array<float, GridShape::kSamples> metres;
-    sampler.fill(sampled[i], metres.data());
-    std::transform(metres.begin(), metres.end(), data.samples.begin() + std::ptrdiff_t(first),
-                   [&](float metres) { return shape.inSteps(metres); });
+    const BrickSampler::Wanted own = SharedSamples(shape, data.slots, sampled[i]).own();
+    sampler.fill(sampled[i], own, metres.data());
+    for (std::size_t s = 0; s < own.size(); ++s)
+      if (own[s]) data.samples[first + s] = shape.inSteps(metres[s]);
     counter.add();
   });
+  for (const Vector3i& b : sampled) SharedSamples(shape, data.slots, b).copy(data.samples);
   return std::make_shared<const SparseGrid>(shape, std::move(data));
 }
 

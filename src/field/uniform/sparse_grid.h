@@ -47,6 +47,10 @@ struct GridShape {
   std::size_t brickIndex(const Vector3i& b) const {
     return (std::size_t(b.z()) * bricks.y() + b.y()) * bricks.x() + b.x();
   }
+  /// The number of a brick's samples along each axis.
+  static Vector3i sides() { return Vector3i::Constant(kSide); }
+  /// Index of a sample in its brick, by its position from 0 to kBrick per axis.
+  static int sampleIndex(const Vector3i& local) { return (local.z() * kSide + local.y()) * kSide + local.x(); }
   std::size_t cornerIndex(const Vector3i& b) const {
     return (std::size_t(b.z()) * (bricks.y() + 1) + b.y()) * (bricks.x() + 1) + b.x();
   }
@@ -138,8 +142,7 @@ class SparseGrid {
   void check() const;
 
   static std::size_t sampleIndex(std::int32_t slot, const Vector3i& local) {
-    return std::size_t(slot) * GridShape::kSamples + (local.z() * GridShape::kSide + local.y()) * GridShape::kSide +
-           local.x();
+    return std::size_t(slot) * GridShape::kSamples + std::size_t(GridShape::sampleIndex(local));
   }
 
   GridShape shape_;

@@ -74,6 +74,7 @@ class BrickSample {
     constexpr double kSeconds = 15e-3, kShareOfAll = 0.03, kSure = 0.05;
     constexpr std::size_t kMin = 8;
     std::array<float, GridShape::kSamples> samples;
+    const BrickSampler::Wanted wanted = withoutUpperFaces();
     const SpreadOrder order(needed_.size());
     const double whole = double(needed_.size()) / double(tested_) * double(shape_.brickCount());
     const double start = threadSeconds();
@@ -81,9 +82,18 @@ class BrickSample {
       const double begin = threadSeconds();
       if (k >= kMin && begin - start > std::max(kSeconds, kShareOfAll * whole * brick_seconds_.mean())) break;
       if (k >= 4 * kMin && brick_seconds_.relativeError() < kSure) break;
-      sampler_.fill(needed_[order[k]], samples.data());
+      sampler_.fill(needed_[order[k]], wanted, samples.data());
       brick_seconds_.add(threadSeconds() - begin);
     }
+  }
+
+  /// Those that a brick computes if all around it have samples too, as most have: see SharedSamples.
+  static BrickSampler::Wanted withoutUpperFaces() {
+    BrickSampler::Wanted wanted;
+    forEachPoint(GridShape::sides(), [&](const Vector3i& local) {
+      wanted[std::size_t(GridShape::sampleIndex(local))] = local.maxCoeff() < GridShape::kBrick;
+    });
+    return wanted;
   }
 
   const GridShape shape_;
