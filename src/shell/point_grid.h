@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,7 @@ class PointGrid {
   void insert(const Vector3d& p) {
     if (cells_.size() >= heads_.size()) grow();
     const std::int32_t index = static_cast<std::int32_t>(cells_.size());
-    cells_.push_back(hash(cell(p, 0), cell(p, 1), cell(p, 2)));
+    cells_.push_back(hash(cell(p)));
     next_.push_back(-1);
     link(index);
   }
@@ -28,26 +29,34 @@ class PointGrid {
   /// @return whether it did.
   template <typename Visit>
   bool anyNear(const Vector3d& p, Visit visit) const {
-    std::int64_t low[3];
-    for (int axis = 0; axis < 3; ++axis) low[axis] = static_cast<std::int64_t>(std::floor(p[axis] * scale_ - 0.5));
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::uint64_t code = hash(low[0] + (corner & 1), low[1] + (corner >> 1 & 1), low[2] + (corner >> 2));
-      for (std::int32_t i = heads_[code & (heads_.size() - 1)]; i >= 0; i = next_[i]) {
-        if (visit(i)) return true;
-      }
-    }
+    return anyWithin(p, 0.5 / scale_, visit);
+  }
+
+  /// The same for any other distance; points may be visited more than once.
+  template <typename Visit>
+  bool anyWithin(const Vector3d& p, double reach, Visit visit) const {
+    const Cell low = cell(p.array() - reach), high = cell(p.array() + reach);
+    for (std::int64_t z = low[2]; z <= high[2]; ++z)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+          for (std::int32_t i = heads_[hash({x, y, z}) & (heads_.size() - 1)]; i >= 0; i = next_[i])
+            if (visit(i)) return true;
     return false;
   }
 
  private:
-  std::int64_t cell(const Vector3d& p, int axis) const {
-    return static_cast<std::int64_t>(std::floor(p[axis] * scale_));
+  using Cell = std::array<std::int64_t, 3>;
+
+  Cell cell(const Vector3d& p) const {
+    const auto along = [&](int axis) { return static_cast<std::int64_t>(std::floor(p[axis] * scale_)); };
+    return {along(0), along(1), along(2)};
   }
 
-  static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
+  static std::uint64_t hash(const Cell& cell) {
     // Odd constants of Teschner et al. 2003, then a mix of the upper bits into those that choose the bucket.
-    std::uint64_t code = static_cast<std::uint64_t>(x) * 73856093u ^ static_cast<std::uint64_t>(y) * 19349663u ^
-                         static_cast<std::uint64_t>(z) * 83492791u;
+    std::uint64_t code = static_cast<std::uint64_t>(cell[0]) * 73856093u ^
+                         static_cast<std::uint64_t>(cell[1]) * 19349663u ^
+                         static_cast<std::uint64_t>(cell[2]) * 83492791u;
     code *= 0x9E3779B97F4A7C15ULL;
     return code >> 24;
   }

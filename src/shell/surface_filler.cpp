@@ -174,31 +174,65 @@ void SurfaceFiller::fillGaps() {
   }
 }
 
+void SurfaceFiller::gather(OpenPiece& open, const Vector3d& center, const Vector3d& normal) {
+  const double reach = (1 + 1e-9) * (options_.spacing + std::sqrt(open.piece.farthest2(center)));
+  const auto isNear = [&](const Vector3d& p) { return (p - center).squaredNorm() <= reach * reach; };
+  const auto offer = [&](std::size_t i) {
+    const Vector3d& p = shell_.points[i];
+    if (isNear(p) && shell_.normals[i].cast<double>().dot(normal) >= 0) candidates_.push_back(p);
+  };
+  const std::size_t begin = open.end;
+  if (open.begin == open.end) {
+    grid_.anyWithin(center, reach, [&](std::int32_t i) {
+      offer(static_cast<std::size_t>(i));
+      return false;
+    });
+  } else {
+    candidates_.resize(begin + (open.end - open.begin));
+    auto kept = candidates_.begin() + std::ptrdiff_t(begin);
+    for (std::size_t i = open.begin; i < open.end; ++i) {
+      *kept = candidates_[i];
+      kept += isNear(*kept) ? 1 : 0;
+    }
+    candidates_.erase(kept, candidates_.end());
+    for (std::size_t i = open.known; i < shell_.size(); ++i) offer(i);
+  }
+  open.begin = begin;
+  open.end = candidates_.size();
+  open.known = shell_.size();
+}
+
 void SurfaceFiller::fillGaps(const SurfacePiece& whole, const Vector3d& normal) {
   const double spacing2 = options_.spacing * options_.spacing;
   // A piece this small that no single point covers lies on the rim of several balls; a point at its centre covers it.
   constexpr double kSmallest2 = 0.05 * 0.05;
-  pieces_.assign(1, whole);
+  // To search once for a larger piece and distribute its points is cheaper than to search for each small one.
+  constexpr double kGather2 = 3 * 3;
+  pieces_.assign(1, {whole, 0, 0, 0});
   while (!pieces_.empty()) {
     cancel_.check();
-    const SurfacePiece piece = pieces_.back();
+    OpenPiece open = pieces_.back();
     pieces_.pop_back();
-    const double length2 = piece.longestEdge().second;
-    const Vector3d center = centroid(piece.corners);
+    // Candidates beyond this piece's belong to finished pieces; those before, to the pieces that contain this one.
+    candidates_.resize(open.end);
+    const double length2 = open.piece.longestEdge().second;
+    const Vector3d center = centroid(open.piece.corners);
+    if (length2 <= kGather2 * spacing2) gather(open, center, normal);
     if (length2 <= 4 * spacing2) {
-      const bool done = grid_.anyNear(center, [&](std::int32_t q) {
-        return piece.farthest2(shell_.points[q]) <= spacing2 && shell_.normals[q].cast<double>().dot(normal) >= 0;
-      });
-      if (done) continue;
-      if (length2 <= kSmallest2 * spacing2 || !isCovered(center, normal)) {
+      const auto any = [&](auto covers) {
+        return std::any_of(candidates_.begin() + std::ptrdiff_t(open.begin), candidates_.end(), covers);
+      };
+      if (any([&](const Vector3d& p) { return open.piece.farthest2(p) <= spacing2; })) continue;
+      const bool is_covered = any([&](const Vector3d& p) { return (p - center).squaredNorm() < spacing2; });
+      if (length2 <= kSmallest2 * spacing2 || !is_covered) {
         add(center, normal.isZero() ? Vector3d::UnitZ() : normal);
-        pieces_.push_back(piece);
+        pieces_.push_back(open);
         continue;
       }
     }
-    const auto [first, second] = piece.halves();
-    pieces_.push_back(first);
-    pieces_.push_back(second);
+    const auto [first, second] = open.piece.halves();
+    pieces_.push_back({first, open.begin, open.end, open.known});
+    pieces_.push_back({second, open.begin, open.end, open.known});
   }
 }
 

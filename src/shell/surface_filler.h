@@ -37,13 +37,23 @@ class SurfaceFiller {
   bool isCovered(const Vector3d& p, const Vector3d& normal) const;
   void fillGaps(const SurfacePiece& whole, const Vector3d& normal);
 
+  /// A piece that is still to be filled, and the points that may cover parts of it: a range of `candidates_`, and all
+  /// points from the `known`-th on. The range is empty if none have been gathered yet.
+  struct OpenPiece {
+    SurfacePiece piece;
+    std::size_t begin, end, known;
+  };
+  /// Appends a piece's candidates to `candidates_`.
+  void gather(OpenPiece& open, const Vector3d& center, const Vector3d& normal);
+
   const CancelPoint cancel_;
   const TriangleMesh& mesh_;
   const ShellOptions& options_;
   std::vector<Vector3d> triangle_normals_;  // unit, or zero
   PointGrid grid_;
   SampledPoints shell_;
-  std::vector<SurfacePiece> pieces_;  // the current triangle's pieces that are still to be filled
+  std::vector<OpenPiece> pieces_;  // of the current triangle
+  std::vector<Vector3d> candidates_;
 };
 
 }  // namespace sdf_ccd
