@@ -13,6 +13,7 @@ namespace {
 
 /// Data of a triangle for all tests against others, measured once.
 struct Measured {
+  AlignedBox3d box;
   Vector3d normal;  ///< of length one, or zero
   double error;     ///< see closestError()
   bool certain;     ///< see hasCertainPlane()
@@ -25,8 +26,10 @@ bool cut(const TriangleMesh& mesh, const std::vector<Measured>& measured, int fi
   const int shared = sharedVertices(i, j);
   if (shared == 3) return true;
   if (shared == 2) return a.normal.dot(b.normal) < -0.999999;
-  return meet({i, cornersOf(mesh, first), a.normal}, {j, cornersOf(mesh, second), b.normal},
-              tolerance + a.error + b.error);
+  const double apart = tolerance + a.error + b.error;
+  // Twice, for rounding. Of the triangles near a long one most are beside it.
+  if (((a.box.min() - b.box.max()).cwiseMax(b.box.min() - a.box.max()).array() > 2.0 * apart).any()) return false;
+  return meet({i, cornersOf(mesh, first), a.normal}, {j, cornersOf(mesh, second), b.normal}, apart);
 }
 
 }  // namespace
@@ -39,8 +42,10 @@ CutLists cutLists(const TriangleMesh& mesh, const TriangleTree& tree, const Surf
   std::vector<Measured> measured(mesh.triangles.size());
   parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
     const int triangle = static_cast<int>(i);
-    measured[i] = {areaNormal(mesh, triangle).normalized(), closestError(cornersOf(mesh, triangle)),
-                   hasCertainPlane(mesh, triangle, tolerance)};
+    const Corners c = cornersOf(mesh, triangle);
+    AlignedBox3d box;
+    for (const Vector3d& corner : c) box.extend(corner);
+    measured[i] = {box, areaNormal(c).normalized(), closestError(c), hasCertainPlane(mesh, triangle, tolerance)};
   });
   std::atomic<std::size_t> pairs{0};
   tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
