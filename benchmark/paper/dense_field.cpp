@@ -6,7 +6,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "field/uniform/sparse_grid.h"
+#include "field/trilinear_cell.h"
 
 namespace sdf_ccd::benchmark {
 namespace {
