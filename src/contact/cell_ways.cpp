@@ -108,6 +108,47 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   }
 }
 
+using Ints = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
+
+/// The cells of ways in a grid.
+struct LocatedWays {
+  std::array<std::array<std::int32_t, CellWays::kCount>, 3> cell;
+  Column within;  ///< 1 if the way is in the box and stays in the cell; else 0
+};
+
+SDF_CCD_LANES void locate(const GridShape& shape, const AlignedBox3d& box, CellWays& ways, LocatedWays& located) {
+  const Doubles zero = {}, one = zero + 1.0;
+  const Vector3i count = shape.cells();
+  Doubles within = one;
+  for (int k = 0; k < 3; ++k) {
+    const Doubles start = load(ways.start[k]), end = start + load(ways.step[k]);
+    const Doubles from = (start - shape.origin[k]) / shape.cell, to = (end - shape.origin[k]) / shape.cell;
+    // A number for NaN, too.
+    const Doubles held = smaller(larger(from, zero), zero + (count[k] - 1.0));
+    const Ints cell = __builtin_convertvector(held, Ints);  // rounds towards zero
+    const Doubles low = __builtin_convertvector(cell, Doubles), from_low = from - low, to_low = to - low;
+    within = start >= zero + box.min()[k] ? within : zero;
+    within = start <= zero + box.max()[k] ? within : zero;
+    within = to_low >= zero ? within : zero;
+    within = to_low < one ? within : zero;
+    store(smaller(larger(from_low, zero), one), ways.from[k]);
+    store(smaller(larger(to_low, zero), one), ways.to[k]);
+    for (int i = 0; i < kWidth; ++i) located.cell[k][i] = cell[i];
+  }
+  store(within, located.within);
+  store(zero + shape.cell, ways.side);
+}
+
+/// Samples of the corners, in steps.
+using CornerSamples = std::array<std::array<std::int32_t, CellWays::kCount>, 8>;
+
+SDF_CCD_LANES void setCorners(const CornerSamples& samples, double step, CellWays& ways) {
+  for (int k = 0; k < 8; ++k) {
+    const auto& s = samples[k];
+    store(__builtin_convertvector((Ints{s[0], s[1], s[2], s[3]}), Doubles) * step, ways.corners[k]);
+  }
+}
+
 double sumOf(const Column& column) {
   double sum = 0.0;
   for (const double value : column) sum += value;
@@ -119,6 +160,24 @@ Vector3d sumOf(const std::array<Column, 3>& columns) {
 }
 
 }  // namespace
+
+unsigned placeInGrid(const SparseGrid& grid, const AlignedBox3d& box, CellWays& ways) {
+  LocatedWays located;
+  locate(grid.shape(), box, ways, located);
+  CornerSamples samples = {};
+  unsigned placed = 0;
+  for (int i = 0; i < CellWays::kCount; ++i) {
+    if (located.within[i] == 0.0) continue;
+    const Vector3i cell(located.cell[0][i], located.cell[1][i], located.cell[2][i]);
+    const std::int32_t slot = grid.slot(GridShape::brickOf(cell));
+    if (slot == SparseGrid::kFar) continue;
+    placed |= 1U << i;
+    const std::array<std::int16_t, 8> corners = grid.cellSamples(slot, GridShape::inBrick(cell));
+    for (int k = 0; k < 8; ++k) samples[k][i] = corners[k];
+  }
+  setCorners(samples, grid.shape().step, ways);
+  return placed;
+}
 
 void CellImpulses::add(const CellWays& ways, double duration, CellDepths& depths) {
   // About a point nearby, moments keep the precision that they lose about an origin far away.

@@ -4,6 +4,7 @@
 
 #include "chord_impulses.h"
 #include "common/compiler_lanes.h"
+#include "field/uniform/sparse_grid.h"
 #include "gauss_nodes.h"
 
 namespace sdf_ccd {
@@ -23,6 +24,11 @@ struct CellWays {
   Column stiffness = {};                        ///< [N/m]; 0, like the damping, in lanes that are not used
   Column damping = {};                          ///< [N·s/m]
 };
+
+/// Places ways by their `start` and `step` in the cells of a uniform grid, as CellReader::enter(): sets corners, from,
+/// to and side. @param box  of the field.
+/// @return bit i: way i is in one cell with corner values; else its cell is not set.
+unsigned placeInGrid(const SparseGrid& grid, const AlignedBox3d& box, CellWays& ways);
 
 /// Where points are deepest.
 struct CellDepths {

@@ -54,7 +54,8 @@ class Integrator {
         result_(result),
         impulses_(result.on_shell_body),
         may_add_to_ways_(request.impulse && options.quadrature == Quadrature::kExact &&
-                         options.normal == NormalSource::kField && input.siblings.empty()),
+                         options.normal == NormalSource::kField && input.siblings.empty() && !input.field.primitive()),
+        box_(input.field.box()),
         reach_from_(input.field.band() - input.field.errorBound()) {}
 
   /// Adds a hit, and sets its depth then or later, but before finish().
@@ -84,38 +85,49 @@ class Integrator {
   bool addToWays(const ShellHit& hit, HitDepth& depth) {
     if (!may_add_to_ways_ || hit.interval.enter != 0.0 || hit.interval.exit != 1.0) return false;
     const int lane = pending_count_;
-    ChordPoint& point = pending_[lane].point = pointOf(hit);
-    CellLine line;
-    if (!field_.enter(point.start, point.position(1.0), line)) return false;
-    pending_[lane].hit = &hit;
-    pending_[lane].depth = &depth;
-    for (int k = 0; k < 8; ++k) ways_.corners[k][lane] = field_.corners()[k];
+    pending_[lane] = {&hit, &depth, pointOf(hit)};
+    const ChordPoint& point = pending_[lane].point;
+    if (!input_.field.grid() && !placeInLeaf(point, lane)) return false;
     for (int k = 0; k < 3; ++k) {
-      ways_.from[k][lane] = line.from[k];
-      ways_.to[k][lane] = line.to[k];
       ways_.start[k][lane] = point.start[k];
       ways_.step[k][lane] = point.step[k];
     }
-    ways_.side[lane] = field_.side();
     ways_.stiffness[lane] = shareOf(hit) * options_.stiffness;
     ways_.damping[lane] = shareOf(hit) * options_.damping;
     if (++pending_count_ == CellWays::kCount) addWays();
     return true;
   }
 
+  /// As placeInGrid(), for a lane.
+  bool placeInLeaf(const ChordPoint& point, int lane) {
+    CellLine line;
+    if (!field_.enter(point.start, point.position(1.0), line)) return false;
+    for (int k = 0; k < 8; ++k) ways_.corners[k][lane] = field_.corners()[k];
+    for (int k = 0; k < 3; ++k) {
+      ways_.from[k][lane] = line.from[k];
+      ways_.to[k][lane] = line.to[k];
+    }
+    ways_.side[lane] = field_.side();
+    return true;
+  }
+
   void addWays() {
     if (pending_count_ == 0) return;
-    for (int lane = pending_count_; lane < CellWays::kCount; ++lane) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
+    unsigned placed = (1U << pending_count_) - 1;
+    if (const SparseGrid* grid = input_.field.grid()) placed &= placeInGrid(*grid, box_, ways_);
+    for (int lane = 0; lane < CellWays::kCount; ++lane)
+      if ((placed >> lane & 1U) == 0) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
     CellDepths deepest;
-    in_cells_.add(ways_, pending_[0].point.duration(), deepest);
-    is_smooth_ = true;
+    if (placed != 0) in_cells_.add(ways_, pending_[0].point.duration(), deepest);
     for (int lane = 0; lane < pending_count_; ++lane) {
       const auto& [hit, depth, point] = pending_[lane];
-      const double u = deepest.u[lane], s = std::clamp(u, kInside, 1.0 - kInside);
-      if (deepest.bears[lane] == 0.0) {
+      if ((placed >> lane & 1U) == 0 || deepest.bears[lane] == 0.0) {
         addAlone(*hit, *depth);
-        is_smooth_ = true;
-      } else if (u == 0.0 || u == 1.0) {
+        continue;
+      }
+      is_smooth_ = true;
+      const double u = deepest.u[lane], s = std::clamp(u, kInside, 1.0 - kInside);
+      if (u == 0.0 || u == 1.0) {
         const Vector3d normal(deepest.normal[0][lane], deepest.normal[1][lane], deepest.normal[2][lane]);
         setDepth(point, hit->interval, s, deepest.value[lane], normal, *depth);
       } else {
@@ -338,6 +350,7 @@ class Integrator {
   PieceEnd end_;
   bool is_smooth_ = false;  // this hit is one smooth piece
   bool may_add_to_ways_;
+  AlignedBox3d box_;
   double reach_from_;  // depth from which on a point's reach is told [m]
   CellWays ways_;
   std::array<Pending, CellWays::kCount> pending_;  // of ways_

@@ -112,11 +112,16 @@ class SparseGrid {
 
   /// Corner values of a cell in a brick with samples: bit 0 of the index is x, bit 1 y, bit 2 z.
   std::array<double, 8> cellCorners(std::int32_t slot, const Vector3i& cell_in_brick) const {
+    const std::array<std::int16_t, 8> s = cellSamples(slot, cell_in_brick);
+    const double step = shape_.step;
+    return {step * s[0], step * s[1], step * s[2], step * s[3], step * s[4], step * s[5], step * s[6], step * s[7]};
+  }
+
+  /// The same in steps.
+  std::array<std::int16_t, 8> cellSamples(std::int32_t slot, const Vector3i& cell_in_brick) const {
     constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
     const std::int16_t* s = arrays_.samples.data + sampleIndex(slot, cell_in_brick);
-    const double step = shape_.step;
-    return {step * s[0],  step * s[1],      step * s[kY],      step * s[kY + 1],
-            step * s[kZ], step * s[kZ + 1], step * s[kZ + kY], step * s[kZ + kY + 1]};
+    return {s[0], s[1], s[kY], s[kY + 1], s[kZ], s[kZ + 1], s[kZ + kY], s[kZ + kY + 1]};
   }
 
   /// A sample of a brick [m], `local` from 0 to kBrick per axis.
