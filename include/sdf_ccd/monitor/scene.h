@@ -39,7 +39,7 @@ struct LeftOut {
   LeftOutReason reason;
   int body_a = -1, body_b = -1;  ///< of a pair
 
-  bool isPair() const { return body_a >= 0; }
+  bool isPair() const { return body_a >= 0; }                                   ///< else it is a body's
   std::string what() const { return kind + (isPair() ? " " : " of ") + name; }  ///< "pair a - b", "shell of map"
 };
 
