@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "common/infinity.h"
@@ -132,10 +131,6 @@ std::optional<RoundedTriangle> onlyTriangle(const BoxTree& tree, BoxTree::Slot s
 }
 
 }  // namespace
-
-double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
-  return 32.0 * std::numeric_limits<double>::epsilon() * coordinateSize(a, b, poses);
-}
 
 double coordinateSize(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
   return a.origin().norm() + a.ball().radius + (poses.X_AB_start * b.origin()).norm() +

@@ -1,16 +1,23 @@
 #pragma once
 
+#include <limits>
+
 #include "geometry/trees/box_tree.h"
 #include "query/lanes/triangle_pairs.h"
 
 namespace sdf_ccd {
 
-/// Upper bound of the rounding errors of distances between triangles, at either pose, along a direction [m]: 32 ε of
-/// the coordinates; see separation().
-double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses);
-
-/// Sum of the sizes of these coordinates, in both frames [m].
+/// Sum of the sizes of the coordinates of two trees' triangles, in both frames, at both poses [m].
 double coordinateSize(const BoxTree& a, const BoxTree& b, const EndPoses& poses);
+
+/// Upper bound of the rounding errors of distances between triangles, at either pose, along a direction, relative to
+/// coordinateSize(): see separation().
+constexpr double kTriangleRounding = 32.0 * std::numeric_limits<double>::epsilon();
+
+/// The same bound [m].
+inline double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
+  return kTriangleRounding * coordinateSize(a, b, poses);
+}
 
 /// Tests boxes of two trees while B moves relative to A, from one pose to another along chords: at the pose halfway,
 /// each box in the other tree's frame. See separation() for the proof.

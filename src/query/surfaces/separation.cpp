@@ -47,8 +47,9 @@ class SeparationQuery {
     memory_.near.clear();
     const Isometry3d X_start = motion_.X_FP(0.0), X_end = motion_.X_FP(1.0);
     const EndPoses poses{X_start, X_end};
-    rounding_ = triangleRounding(a_, b_, poses);
-    crossing_margin_ = options_.margin + 1e-12 * coordinateSize(a_, b_, poses);
+    const double size = coordinateSize(a_, b_, poses);
+    rounding_ = kTriangleRounding * size;
+    crossing_margin_ = options_.margin + 1e-12 * size;
     if (crossedBefore(X_end)) return found_;
     testBoxes({0.0, 1.0}, poses);
     if (crossed_ || open_ || isDone()) return found_;

@@ -14,14 +14,9 @@ namespace {
 
 class DistanceQuery {
  public:
-  DistanceQuery(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB, double max_distance,
+  DistanceQuery(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB, double max_distance, double rounding,
                 SeparationMemory& memory)
-      : a_(a),
-        b_(b),
-        X_AB_(X_AB),
-        best_(max_distance),
-        boxes_(a, b, {X_AB, X_AB}, triangleRounding(a, b, {X_AB, X_AB})),
-        memory_(memory) {}
+      : a_(a), b_(b), X_AB_(X_AB), best_(max_distance), boxes_(a, b, {X_AB, X_AB}, rounding), memory_(memory) {}
 
   std::optional<SurfaceDistance> run(SeparationWitness& witness) {
     if (witness.near_a >= 0) test(witness.near_a, witness.near_b, witness);
@@ -114,10 +109,10 @@ std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& 
                                                double max_distance, SeparationWitness& witness,
                                                SeparationMemory& memory) {
   const double apart = (X_AB * b.origin() - a.origin()).norm() - a.ball().radius - b.ball().radius;
-  const double rounding =
-      kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart)) + triangleRounding(a, b, {X_AB, X_AB});
-  if (apart > max_distance + rounding) return std::nullopt;
-  return DistanceQuery(a, b, X_AB, max_distance, memory).run(witness);
+  const double rounding = triangleRounding(a, b, {X_AB, X_AB});
+  const double of_balls = kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart)) + rounding;
+  if (apart > max_distance + of_balls) return std::nullopt;
+  return DistanceQuery(a, b, X_AB, max_distance, rounding, memory).run(witness);
 }
 
 std::optional<double> slabBetween(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
