@@ -24,6 +24,19 @@ struct LaneVector {
   }
 };
 
+/// Vectors in memory, a number a lane.
+using VectorsInMemory = std::array<std::array<double, kWidth>, 3>;
+
+SDF_CCD_INLINE LaneVector<Doubles> load(const VectorsInMemory& from) {
+  return {load(from[0].data()), load(from[1].data()), load(from[2].data())};
+}
+
+SDF_CCD_INLINE void store(const LaneVector<Doubles>& v, VectorsInMemory& to) {
+  store(v.x, to[0].data());
+  store(v.y, to[1].data());
+  store(v.z, to[2].data());
+}
+
 template <class Lanes>
 SDF_CCD_INLINE Lanes absolute(const Lanes& v) {
   return larger(v, -v);

@@ -3,6 +3,7 @@
 #include "common/lane_vector.h"
 #include "field/trilinear_cell.h"
 #include "query/cells/cell_cubic.h"
+#include "smooth_piece.h"
 
 namespace sdf_ccd {
 namespace {
@@ -15,18 +16,12 @@ SDF_CCD_INLINE Doubles load(const Column& column) {
   return lanes::load(column.data());
 }
 
-SDF_CCD_INLINE Vectors load(const std::array<Column, 3>& columns) {
-  return {load(columns[0]), load(columns[1]), load(columns[2])};
-}
-
 SDF_CCD_INLINE void store(const Doubles& values, Column& column) {
   lanes::store(values, column.data());
 }
 
-SDF_CCD_INLINE void addTo(std::array<Column, 3>& columns, const Vectors& v) {
-  store(load(columns[0]) + v.x, columns[0]);
-  store(load(columns[1]) + v.y, columns[1]);
-  store(load(columns[2]) + v.z, columns[2]);
+SDF_CCD_INLINE void addTo(VectorsInMemory& sums, const Vectors& v) {
+  lanes::store(lanes::load(sums) + v, sums);
 }
 
 SDF_CCD_INLINE Vectors where(const Doubles& first, const Vectors& a, const Vectors& b) {
@@ -71,7 +66,7 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   const Doubles zero = {};
   std::array<Doubles, 8> corners;
   for (int k = 0; k < 8; ++k) corners[k] = load(ways.corners[k]);
-  const Vectors from = load(ways.from), to = load(ways.to);
+  const Vectors from = lanes::load(ways.from), to = lanes::load(ways.to);
   const Vectors d = to - from;
   const std::array<Doubles, 4> c = cubicAlong<Doubles>(corners, {from.x, from.y, from.z}, {d.x, d.y, d.z});
   findMinima(c, depths);
@@ -83,20 +78,16 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   Doubles bears = zero + 1.0;
   std::array<Vectors, kGaussNodes.size()> normals;
   for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
-    const double s = kGaussNodes[i].s;
-    normals[i] = direction(first * (zero + (1.0 - s) * (1.0 - 2.0 * s)) + middle * (zero + 4.0 * s * (1.0 - s)) +
-                               last * (zero + s * (2.0 * s - 1.0)),
-                           least2, bears);
+    const std::array<double, 3> w = quadraticWeights(kGaussNodes[i].s);
+    normals[i] = direction(first * (zero + w[0]) + middle * (zero + w[1]) + last * (zero + w[2]), least2, bears);
   }
   const Vectors N = direction(where(load(depths.u), last, first), least2, bears);
   store(bears, depths.bears);
-  store(N.x, depths.normal[0]);
-  store(N.y, depths.normal[1]);
-  store(N.z, depths.normal[2]);
+  lanes::store(N, depths.normal);
 
   const Doubles stiffness = bears * load(ways.stiffness) * duration, damping = bears * load(ways.damping);
-  const Vectors start = load(ways.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
-  const Vectors step = load(ways.step);
+  const Vectors start = lanes::load(ways.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
+  const Vectors step = lanes::load(ways.step);
   for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
     const Doubles s = zero + kGaussNodes[i].s;
     const Doubles value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
@@ -116,9 +107,10 @@ struct LocatedWays {
   Column within;  ///< 1 if the way is in the box and stays in the cell; else 0
 };
 
-SDF_CCD_LANES void locate(const GridShape& shape, const AlignedBox3d& box, CellWays& ways, LocatedWays& located) {
+SDF_CCD_LANES void locate(const GridShape& shape, CellWays& ways, LocatedWays& located) {
   const Doubles zero = {}, one = zero + 1.0;
   const Vector3i count = shape.cells();
+  const AlignedBox3d box = shape.box();
   Doubles within = one;
   for (int k = 0; k < 3; ++k) {
     const Doubles start = load(ways.start[k]), end = start + load(ways.step[k]);
@@ -161,9 +153,9 @@ Vector3d sumOf(const std::array<Column, 3>& columns) {
 
 }  // namespace
 
-unsigned placeInGrid(const SparseGrid& grid, const AlignedBox3d& box, CellWays& ways) {
+unsigned placeInGrid(const SparseGrid& grid, CellWays& ways) {
   LocatedWays located;
-  locate(grid.shape(), box, ways, located);
+  locate(grid.shape(), ways, located);
   CornerSamples samples = {};
   unsigned placed = 0;
   for (int i = 0; i < CellWays::kCount; ++i) {

@@ -26,9 +26,9 @@ struct CellWays {
 };
 
 /// Places ways by their `start` and `step` in the cells of a uniform grid, as CellReader::enter(): sets corners, from,
-/// to and side. @param box  of the field.
+/// to and side.
 /// @return bit i: way i is in one cell with corner values; else its cell is not set.
-unsigned placeInGrid(const SparseGrid& grid, const AlignedBox3d& box, CellWays& ways);
+unsigned placeInGrid(const SparseGrid& grid, CellWays& ways);
 
 /// Where points are deepest.
 struct CellDepths {

@@ -55,7 +55,6 @@ class Integrator {
         impulses_(result.on_shell_body),
         may_add_to_ways_(request.impulse && options.quadrature == Quadrature::kExact &&
                          options.normal == NormalSource::kField && input.siblings.empty() && !input.field.primitive()),
-        box_(input.field.box()),
         reach_from_(input.field.band() - input.field.errorBound()) {}
 
   /// Adds a hit, and sets its depth then or later, but before finish().
@@ -92,8 +91,9 @@ class Integrator {
       ways_.start[k][lane] = point.start[k];
       ways_.step[k][lane] = point.step[k];
     }
-    ways_.stiffness[lane] = shareOf(hit) * options_.stiffness;
-    ways_.damping[lane] = shareOf(hit) * options_.damping;
+    const double share = shareOf(hit);
+    ways_.stiffness[lane] = share * options_.stiffness;
+    ways_.damping[lane] = share * options_.damping;
     if (++pending_count_ == CellWays::kCount) addWays();
     return true;
   }
@@ -114,7 +114,7 @@ class Integrator {
   void addWays() {
     if (pending_count_ == 0) return;
     unsigned placed = (1U << pending_count_) - 1;
-    if (const SparseGrid* grid = input_.field.grid()) placed &= placeInGrid(*grid, box_, ways_);
+    if (const SparseGrid* grid = input_.field.grid()) placed &= placeInGrid(*grid, ways_);
     for (int lane = 0; lane < CellWays::kCount; ++lane)
       if ((placed >> lane & 1U) == 0) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
     CellDepths deepest;
@@ -139,8 +139,9 @@ class Integrator {
 
   void addAlone(const ShellHit& hit, HitDepth& depth) {
     const ChordPoint point = pointOf(hit);
-    stiffness_ = shareOf(hit) * options_.stiffness;
-    damping_ = shareOf(hit) * options_.damping;
+    const double share = shareOf(hit);
+    stiffness_ = share * options_.stiffness;
+    damping_ = share * options_.damping;
 
     deepest_ = {};
     end_.s = -1.0;
@@ -350,7 +351,6 @@ class Integrator {
   PieceEnd end_;
   bool is_smooth_ = false;  // this hit is one smooth piece
   bool may_add_to_ways_;
-  AlignedBox3d box_;
   double reach_from_;  // depth from which on a point's reach is told [m]
   CellWays ways_;
   std::array<Pending, CellWays::kCount> pending_;  // of ways_

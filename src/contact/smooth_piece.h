@@ -1,9 +1,16 @@
 #pragma once
 
+#include <array>
+
 #include "field/cell_reader.h"
 #include "query/cells/cell_cubic.h"
 
 namespace sdf_ccd {
+
+/// Weights with which a quadratic function of u is the sum of its values at 0, ½ and 1.
+constexpr std::array<double, 3> quadraticWeights(double u) {
+  return {(1.0 - u) * (1.0 - 2.0 * u), 4.0 * u * (1.0 - u), u * (2.0 * u - 1.0)};
+}
 
 /// A field along a straight piece of a path on which the distance is a cubic: in a cell of a grid, next to one face of
 /// a box, in a half-space.
@@ -15,8 +22,8 @@ struct SmoothPiece {
 
   /// At u: along a line, the gradient of a trilinear function is quadratic.
   Vector3d gradient(double u) const {
-    return (1.0 - u) * (1.0 - 2.0 * u) * gradient_first + 4.0 * u * (1.0 - u) * gradient_middle +
-           u * (2.0 * u - 1.0) * gradient_last;
+    const auto [first, middle, last] = quadraticWeights(u);
+    return first * gradient_first + middle * gradient_middle + last * gradient_last;
   }
 };
 

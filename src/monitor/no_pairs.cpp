@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+
 namespace sdf_ccd {
 
 std::string whyNoPairs(const Scene& scene) {

@@ -15,12 +15,6 @@ SDF_CCD_INLINE Doubles amounts(const Vector& v) {
   return absolute(v.x) + absolute(v.y) + absolute(v.z);
 }
 
-SDF_CCD_INLINE void store(const Vector& v, TwistLanes::Vector& to) {
-  lanes::store(v.x, to[0].data());
-  lanes::store(v.y, to[1].data());
-  lanes::store(v.z, to[2].data());
-}
-
 /// Three consecutive numbers of each body.
 SDF_CCD_INLINE Vector gather(const std::array<const double*, kWidth>& from, int first) {
   const auto row = [&](int k) __attribute__((always_inline)) {

@@ -113,10 +113,10 @@ using Pairs = std::set<std::string>;
 TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {
   std::vector<std::string> left_out;
   EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
-  EXPECT_EQ(
-      std::count_if(left_out.begin(), left_out.end(),
-                    [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest and ", 0) == 0; }),
-      1);
+  EXPECT_EQ(std::count_if(
+                left_out.begin(), left_out.end(),
+                [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest and ", 0) == 0; }),
+            1);
 }
 
 TEST(DescribeScene, TheyAreCheckedAndToldIfThatIsWanted) {

@@ -16,7 +16,7 @@ constexpr int kLayers = 12;  ///< of samples, on either side; farther away the s
 std::optional<double> sampleAt(const SparseGrid& grid, const Vector3i& corner) {
   const Vector3i cells = grid.shape().cells();
   if ((corner.array() < 0).any() || (corner.array() > cells.array()).any()) return std::nullopt;
-  const Vector3i brick = corner.cwiseMin((cells.array() - 1).matrix()) / GridShape::kBrick;
+  const Vector3i brick = GridShape::brickOf(corner.cwiseMin((cells.array() - 1).matrix()));
   const std::int32_t slot = grid.slot(brick);
   if (slot == SparseGrid::kFar) return std::nullopt;
   return grid.sample(slot, corner - GridShape::kBrick * brick);

@@ -42,7 +42,7 @@ class SharedSamples {
   /// Copies the samples of other bricks, once these have computed them.
   void copy(std::vector<std::int16_t>& samples) const {
     const auto at = [&](std::int32_t slot, const Vector3i& local) -> std::int16_t& {
-      return samples[std::size_t(slot) * GridShape::kSamples + std::size_t(GridShape::sampleIndex(local))];
+      return samples[GridShape::sampleIndex(slot, local)];
     };
     forEachOfOthers([&](const Owner& owner, const Vector3i& local) {
       at(own_, local) = at(owner.slot, local - GridShape::kBrick * owner.offset);

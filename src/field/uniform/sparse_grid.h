@@ -51,6 +51,10 @@ struct GridShape {
   static Vector3i sides() { return Vector3i::Constant(kSide); }
   /// Index of a sample in its brick, by its position from 0 to kBrick per axis.
   static int sampleIndex(const Vector3i& local) { return (local.z() * kSide + local.y()) * kSide + local.x(); }
+  /// Its index among all samples.
+  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& local) {
+    return std::size_t(slot) * kSamples + std::size_t(sampleIndex(local));
+  }
   std::size_t cornerIndex(const Vector3i& b) const {
     return (std::size_t(b.z()) * (bricks.y() + 1) + b.y()) * (bricks.x() + 1) + b.x();
   }
@@ -120,13 +124,13 @@ class SparseGrid {
   /// The same in steps.
   std::array<std::int16_t, 8> cellSamples(std::int32_t slot, const Vector3i& cell_in_brick) const {
     constexpr int kY = GridShape::kSide, kZ = GridShape::kSide * GridShape::kSide;
-    const std::int16_t* s = arrays_.samples.data + sampleIndex(slot, cell_in_brick);
+    const std::int16_t* s = arrays_.samples.data + GridShape::sampleIndex(slot, cell_in_brick);
     return {s[0], s[1], s[kY], s[kY + 1], s[kZ], s[kZ + 1], s[kZ + kY], s[kZ + kY + 1]};
   }
 
   /// A sample of a brick [m], `local` from 0 to kBrick per axis.
   double sample(std::int32_t slot, const Vector3i& local) const {
-    return shape_.step * arrays_.samples[sampleIndex(slot, local)];
+    return shape_.step * arrays_.samples[GridShape::sampleIndex(slot, local)];
   }
 
   /// Distances at a brick's corners, ordered like cellCorners().
@@ -145,10 +149,6 @@ class SparseGrid {
 
  private:
   void check() const;
-
-  static std::size_t sampleIndex(std::int32_t slot, const Vector3i& local) {
-    return std::size_t(slot) * GridShape::kSamples + std::size_t(GridShape::sampleIndex(local));
-  }
 
   GridShape shape_;
   Arrays arrays_;

@@ -24,8 +24,7 @@ LocatedCell locate(const SparseGrid& grid, const Vector3d& p_F) {
   const Vector3i brick = GridShape::brickOf(cell);
   const std::int32_t slot = grid.slot(brick);
   if (slot != SparseGrid::kFar) {
-    return {grid.cellCorners(slot, GridShape::inBrick(cell)), withinCell(g - cell.cast<double>()), shape.cell,
-            true};
+    return {grid.cellCorners(slot, GridShape::inBrick(cell)), withinCell(g - cell.cast<double>()), shape.cell, true};
   }
   return {grid.brickCorners(brick), withinCell(g / GridShape::kBrick - brick.cast<double>()),
           GridShape::kBrick * shape.cell, false};

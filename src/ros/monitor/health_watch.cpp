@@ -50,8 +50,8 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
 
 void HealthWatch::countPairs(const Scene& scene) {
   health_.pairs = static_cast<int>(scene.pairs.size());
-  health_.pairs_left_out = static_cast<int>(std::count_if(
-      scene.left_out.begin(), scene.left_out.end(), [](const LeftOut& left_out) { return left_out.isPair(); }));
+  health_.pairs_left_out = static_cast<int>(std::count_if(scene.left_out.begin(), scene.left_out.end(),
+                                                          [](const LeftOut& left_out) { return left_out.isPair(); }));
 }
 
 void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent) {
