@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 // SIMD vectors by compiler extensions. Functions marked SDF_CCD_LANES are also compiled for processors with wider
 // vectors; the version for the processor is chosen when the program is loaded.
@@ -34,6 +36,8 @@ constexpr int kFloatWidth = 8;
 using Floats = float __attribute__((vector_size(kFloatWidth * sizeof(float))));
 
 using FloatsInMemory __attribute__((vector_size(kFloatWidth * sizeof(float)), aligned(4), may_alias)) = float;
+using Ints = std::int32_t __attribute__((vector_size(kFloatWidth * sizeof(std::int32_t))));
+using LongInts = std::int64_t __attribute__((vector_size(kWidth * sizeof(std::int64_t))));
 
 // Clang respects the alignment of an alias only after its name.
 static_assert(alignof(DoublesInMemory) == 8 && alignof(FloatsInMemory) == 4,
@@ -65,6 +69,15 @@ SDF_CCD_INLINE Lanes smaller(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
 
+/// Clears the signs.
+SDF_CCD_INLINE Floats absolute(const Floats& v) {
+  return reinterpret_cast<Floats>(reinterpret_cast<Ints>(v) & std::numeric_limits<std::int32_t>::max());
+}
+
+SDF_CCD_INLINE Doubles absolute(const Doubles& v) {
+  return reinterpret_cast<Doubles>(reinterpret_cast<LongInts>(v) & std::numeric_limits<std::int64_t>::max());
+}
+
 SDF_CCD_INLINE Doubles squareRoot(const Doubles& v) {
   return Doubles{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 }
@@ -79,8 +92,17 @@ SDF_CCD_INLINE double leastOf(const Doubles& v) {
 }
 
 SDF_CCD_INLINE float leastOf(const Floats& v) {
-  return std::min(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
-                  std::min(std::min(v[4], v[5]), std::min(v[6], v[7])));
+  using Half = float __attribute__((vector_size(kFloatWidth / 2 * sizeof(float))));
+  const Half least = smaller(Half{v[0], v[1], v[2], v[3]}, Half{v[4], v[5], v[6], v[7]});
+  return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+}
+
+/// Bit i: whether the mask, the result of a comparison, is set in lane i.
+SDF_CCD_INLINE std::uint32_t bitsOf(const Ints& mask) {
+  using Half = std::int32_t __attribute__((vector_size(kFloatWidth / 2 * sizeof(std::int32_t))));
+  const Ints bits = mask & Ints{1, 2, 4, 8, 16, 32, 64, 128};
+  const Half all = Half{bits[0], bits[1], bits[2], bits[3]} | Half{bits[4], bits[5], bits[6], bits[7]};
+  return static_cast<std::uint32_t>(all[0] | all[1] | all[2] | all[3]);
 }
 
 }  // namespace sdf_ccd::lanes

@@ -37,9 +37,4 @@ SDF_CCD_INLINE void store(const LaneVector<Doubles>& v, VectorsInMemory& to) {
   store(v.z, to[2].data());
 }
 
-template <class Lanes>
-SDF_CCD_INLINE Lanes absolute(const Lanes& v) {
-  return larger(v, -v);
-}
-
 }  // namespace sdf_ccd::lanes

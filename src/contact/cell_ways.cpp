@@ -99,7 +99,7 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   }
 }
 
-using Ints = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
+using FourInts = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
 
 /// The cells of ways in a grid.
 struct LocatedWays {
@@ -117,7 +117,7 @@ SDF_CCD_LANES void locate(const GridShape& shape, CellWays& ways, LocatedWays& l
     const Doubles from = (start - shape.origin[k]) / shape.cell, to = (end - shape.origin[k]) / shape.cell;
     // A number for NaN, too.
     const Doubles held = smaller(larger(from, zero), zero + (count[k] - 1.0));
-    const Ints cell = __builtin_convertvector(held, Ints);  // rounds towards zero
+    const FourInts cell = __builtin_convertvector(held, FourInts);  // rounds towards zero
     const Doubles low = __builtin_convertvector(cell, Doubles), from_low = from - low, to_low = to - low;
     within = start >= zero + box.min()[k] ? within : zero;
     within = start <= zero + box.max()[k] ? within : zero;
@@ -137,7 +137,7 @@ using CornerSamples = std::array<std::array<std::int32_t, CellWays::kCount>, 8>;
 SDF_CCD_LANES void setCorners(const CornerSamples& samples, double step, CellWays& ways) {
   for (int k = 0; k < 8; ++k) {
     const auto& s = samples[k];
-    store(__builtin_convertvector((Ints{s[0], s[1], s[2], s[3]}), Doubles) * step, ways.corners[k]);
+    store(__builtin_convertvector((FourInts{s[0], s[1], s[2], s[3]}), Doubles) * step, ways.corners[k]);
   }
 }
 

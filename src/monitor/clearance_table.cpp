@@ -90,8 +90,6 @@ SDF_CCD_INLINE Floats poseErrorOf(const A& a, const B& b) {
   return ((a(TwistRow::kTilt) + b(TwistRow::kTilt)) * far + (a(TwistRow::kError) + b(TwistRow::kError))) * kUpwards;
 }
 
-using Ints = decltype(Floats{} < Floats{});
-
 /// The largest value of a scan above a given one, and its slot.
 class Largest {
  public:

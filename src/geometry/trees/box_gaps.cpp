@@ -109,17 +109,9 @@ SDF_CCD_INLINE void gaps(const BoxTree::Node& node, const PlacedBox& box, const 
   best = larger(best, absolute(way.dot(direction)) - absolute(moved.dot(direction)) - reach);
   best -= load(node.radius) + box.radius + motion.any + spread.most;
   store(best, found.gaps.data());
-  const Floats others = best > cut ? best : Floats{} + kFar;
-  Lane other;
-  store(others, other.data());
-  std::uint32_t near = 0;
-  float least = kFar;
-  for (int i = 0; i < kFloatWidth; ++i) {
-    near |= std::uint32_t(!(found.gaps[i] > cut)) << i;
-    least = other[i] < least ? other[i] : least;
-  }
-  found.near = near;
-  found.least_other = least;
+  const Ints apart = best > cut;
+  found.near = bitsOf(~apart);
+  found.least_other = std::min(leastOf(apart ? best : Floats{} + kFar), kFar);
 }
 
 }  // namespace

@@ -42,6 +42,8 @@ class BoxTree {
   struct Slot {
     std::int32_t node = 0;
     std::int32_t lane = 0;
+
+    bool operator==(const Slot& o) const { return node == o.node && lane == o.lane; }
   };
 
   /// @param triangles  one or more, finite.

@@ -159,15 +159,21 @@ MovingBoxes::MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& pos
              static_cast<float>(std::sqrt(0.5) * (1.0 + 1e-6) * difference.norm())};
 }
 
-PlacedBox MovingBoxes::boxInA(BoxTree::Slot box_b) const {
-  PlacedBox box = boxAt(b_, box_b);
+const PlacedBox& MovingBoxes::boxInA(BoxTree::Slot box_b) {
+  PlacedBox& box = last_in_A_;
+  if (box_b == last_b_) return box;
+  last_b_ = box_b;
+  box = boxAt(b_, box_b);
   box.center = sum(times(R_AB_, box.center), b_from_a_);
   for (Floats& axis : box.axis) axis = times(R_AB_, axis);
   return box;
 }
 
-PlacedBox MovingBoxes::boxInB(BoxTree::Slot box_a) const {
-  PlacedBox box = boxAt(a_, box_a);
+const PlacedBox& MovingBoxes::boxInB(BoxTree::Slot box_a) {
+  PlacedBox& box = last_in_B_;
+  if (box_a == last_a_) return box;
+  last_a_ = box_a;
+  box = boxAt(a_, box_a);
   box.center = sum(timesTransposed(R_AB_, box.center), a_from_b_);
   for (Floats& axis : box.axis) axis = timesTransposed(R_AB_, axis);
   return box;
@@ -200,7 +206,7 @@ Corners MovingBoxes::placedInB(const Corners& corners_A) const {
   return placed;
 }
 
-void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const {
+void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) {
   const BoxTree::Node& of_b = b_.node(box_b.node);
   const Floats center = {of_b.center[0][box_b.lane], of_b.center[1][box_b.lane], of_b.center[2][box_b.lane]};
   BoxMotion motion{};
@@ -216,7 +222,7 @@ void MovingBoxes::gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float 
             found);
 }
 
-void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const {
+void MovingBoxes::gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) {
   if (!is_close_) return boxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
   directedBoxGaps(node, boxInB(box_a), direction_B_, moving_, cut, found);
   if (found.near == 0) return;

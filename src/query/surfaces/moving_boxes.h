@@ -27,8 +27,8 @@ class MovingBoxes {
   MovingBoxes(const BoxTree& a, const BoxTree& b, const EndPoses& poses, double error);
 
   /// As boxGaps(), for the boxes of a node of A and one box of B, and with A and B exchanged.
-  void gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found) const;
-  void gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found) const;
+  void gapsInA(const BoxTree::Node& node, BoxTree::Slot box_b, float cut, NearBoxes& found);
+  void gapsInB(const BoxTree::Node& node, BoxTree::Slot box_a, float cut, NearBoxes& found);
 
   /// Sets a unit axis that boxGaps() tests on all boxes.
   void setDirection(const Vector3d& n_A);
@@ -44,15 +44,17 @@ class MovingBoxes {
   double supportB(double limit) const;
 
  private:
-  PlacedBox boxInA(BoxTree::Slot box_b) const;
-  PlacedBox boxInB(BoxTree::Slot box_a) const;
+  const PlacedBox& boxInA(BoxTree::Slot box_b);
+  const PlacedBox& boxInB(BoxTree::Slot box_a);
   std::array<std::array<float, 3>, 3> spreadInA(BoxTree::Slot box_b) const;
   Corners placedInA(const Corners& corners_B) const;
   Corners placedInB(const Corners& corners_A) const;
 
   const BoxTree &a_, &b_;
-  std::array<std::array<float, 3>, 3> R_AB_;          ///< rotation halfway, by rows
-  std::array<float, 3> b_from_a_, a_from_b_;          ///< B's origin from A's, A's axes; A's from B's, B's axes
+  std::array<std::array<float, 3>, 3> R_AB_;       ///< rotation halfway, by rows
+  std::array<float, 3> b_from_a_, a_from_b_;       ///< B's origin from A's, A's axes; A's from B's, B's axes
+  BoxTree::Slot last_b_{-1, -1}, last_a_{-1, -1};  ///< the boxes that were placed last: in A's frame, in B's
+  PlacedBox last_in_A_, last_in_B_;
   BoxMotion moving_;                                  ///< of B's boxes, in B's frame
   std::array<std::array<float, 3>, 3> difference_A_;  ///< as moving_'s, but displacements in A's axes, by rows
   std::array<float, 3> shift_A_;

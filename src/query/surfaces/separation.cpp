@@ -120,8 +120,14 @@ class SeparationQuery {
     poses_ = poses;
     chord_error_ = motion_.acceleration * times.length() * times.length() / 8.0 + rounding_;
     nearest_ = kInfinity;
-    cut_ = options_.margin;
+    setCut(options_.margin);
     memory_.filter.size = memory_.exact.size = 0;
+  }
+
+  void setCut(double cut) {
+    cut_ = cut;
+    // A gap that exceeds the margin in single precision exceeds it in double precision.
+    cut_of_boxes_ = std::nextafter(static_cast<float>(cut), std::numeric_limits<float>::infinity());
   }
 
   /// Tests all triangles over an interval.
@@ -192,16 +198,14 @@ class SeparationQuery {
     if (!isDone()) test(Times{times.start, middle}, EndPoses{poses.X_AB_start, X_middle});
   }
 
-  void descend(const MovingBoxes& boxes, const SeparationMemory::Boxes& at) {
+  void descend(MovingBoxes& boxes, const SeparationMemory::Boxes& at) {
     const std::int32_t below_a = a_.node(at.a.node).below[at.a.lane], below_b = b_.node(at.b.node).below[at.b.lane];
     const bool end_a = BoxTree::isTriangle(below_a), end_b = BoxTree::isTriangle(below_b);
     if (end_a && end_b) return add({BoxTree::triangleOf(below_a), BoxTree::triangleOf(below_b)});
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    // A gap that exceeds the margin in single precision exceeds it in double precision.
-    const float cut = std::nextafter(static_cast<float>(cut_), std::numeric_limits<float>::infinity());
-    into_a ? boxes.gapsInA(node, at.b, cut, found) : boxes.gapsInB(node, at.a, cut, found);
+    into_a ? boxes.gapsInA(node, at.b, cut_of_boxes_, found) : boxes.gapsInB(node, at.a, cut_of_boxes_, found);
     lowest_ = std::min(lowest_, double(found.least_other));
     std::size_t least = memory_.stack.size();
     for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
@@ -215,10 +219,10 @@ class SeparationQuery {
   }
 
   /// Finds triangles near each other by descending to the nearest boxes.
-  void findNear(const MovingBoxes& boxes) {
+  void findNear(MovingBoxes& boxes) {
     memory_.stack.clear();
     memory_.stack.push_back({a_.root(), b_.root(), 0.0F});
-    cut_ = 1e29;  // no box is pruned; descend() leaves the nearest one at the end
+    setCut(1e29);  // no box is pruned; descend() leaves the nearest one at the end
     const double lowest = lowest_;
     while (true) {
       const SeparationMemory::Boxes at = memory_.stack.back();
@@ -231,7 +235,7 @@ class SeparationQuery {
       descend(boxes, at);
     }
     lowest_ = lowest;
-    cut_ = options_.margin;
+    setCut(options_.margin);
   }
 
   /// Chooses the cut distance and the direction to test from the witness's nearest triangles. @return whether a plane
@@ -249,7 +253,7 @@ class SeparationQuery {
     boxes.setDirection(direction_);
     if (!(gap > options_.margin)) return false;
     nearest_ = gap;
-    cut_ = std::max(options_.margin, kCut * gap);
+    setCut(std::max(options_.margin, kCut * gap));
     double begin = -kInfinity;
     for (const Vector3d* p : a_.corners(pair.a)) begin = std::max(begin, direction_.dot(*p - a_.origin()));
     // The plane may lie anywhere in the gap: either surface may extend into it by half of what the cut distance leaves.
@@ -359,7 +363,7 @@ class SeparationQuery {
         nearest_ = gap;
         witness_.near_a = pair.a;
         witness_.near_b = pair.b;
-        cut_ = std::max(options_.margin, kCut * gap);
+        setCut(std::max(options_.margin, kCut * gap));
         // After a jump the last query's nearest triangles, and their direction, may be anywhere.
         direction_ = group.axisOf(i);
         is_direction_new_ = true;
@@ -410,6 +414,7 @@ class SeparationQuery {
   bool is_direction_new_ = false;           // and not yet that of the boxes' tests
   double nearest_ = kInfinity;              // gap of the nearest triangles tested exactly
   double cut_ = 0.0;
+  float cut_of_boxes_ = 0.0F;      // not less
   double lowest_ = kInfinity;      // the smallest gap used in a proof
   std::optional<Vector3d> plane_;  // the direction of the last plane between the hulls
   int next_plane_ = kLongSearch;   // the number of tests after which it is looked for
