@@ -25,8 +25,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSecondsPerRun = 2.0;  // of a system; slower ones run only every n-th cycle
-constexpr int kTruthPoses = 10;         // at which FCL checks a verdict within a cycle
+constexpr double kSecondsPerRun = 2.0;   // of a system; slower ones run only every n-th cycle
+constexpr int kTruthPoses = 10;          // at which FCL checks a verdict within a cycle
+constexpr std::size_t kColdCycles = 40;  // of a system
 constexpr std::uint64_t kSeed = 1;
 
 /// Poses at the start of the first cycle and at the end of every cycle.
@@ -162,6 +163,27 @@ Built build(const Robot& robot, const BoxWorld& world, const std::string& name, 
   return built;
 }
 
+/// Overwrites the processor's caches, as other programs do between the cycles of a robot.
+void fillCaches() {
+  static std::vector<std::uint64_t> other(std::size_t{1} << 23);  // 64 MB
+  for (std::uint64_t& word : other) word = word * 3 + 1;
+}
+
+/// Times of single cycles that begin with cold caches. The monitor runs those between them too, with warm ones: it
+/// skips pairs by earlier cycles.
+void studyColdCaches(MonitorSystem& system, const Waypoints& waypoints, bool needs_all, const std::string& name) {
+  const std::size_t stride = std::max<std::size_t>(1, waypoints.cycles() / kColdCycles);
+  CycleTimes times(waypoints.cycles(), stride);
+  for (std::size_t i = 0; i < waypoints.cycles(); i += needs_all ? 1 : stride) {
+    const bool is_cold = i % stride == 0;
+    if (is_cold) fillCaches();
+    const auto start = Clock::now();
+    system.check(waypoints.X_WB[i], waypoints.X_WB[i + 1]);
+    if (is_cold) times.take(i, secondsSince(start));
+  }
+  print({"monitor", name, system.name(), "us_cold_median", 1e6 * times.quantile(0.5), "us", 1});
+}
+
 #ifdef SDF_CCD_WITH_ROS
 /// Times of whole cycles from tf to the message, and of their parts outside the monitor.
 void studyTransforms(const Built& built, double period, std::size_t cycles, const std::string& name, int runs) {
@@ -225,6 +247,11 @@ void study(const Built& built, double rate, const std::string& name, const Study
     row("us_p99", 0.99);
     row("us_p999", 0.999);
   }
+  for (SdfCcdMonitor& system : systems) {
+    system.reset();
+    studyColdCaches(system, waypoints, true, name);
+  }
+  for (const auto& peer : peers) studyColdCaches(*peer, waypoints, false, name);
   for (std::size_t k = 1; k < systems.size(); ++k) printDepthErrors(systems[k], waypoints, name);
 #ifdef SDF_CCD_WITH_ROS
   if (isWanted(options.systems, "sdf_ccd_tf"))

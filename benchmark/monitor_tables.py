@@ -14,6 +14,16 @@ def cycles(results):
     return ['case', *(s + ', us' for s in systems)], [[case, *(times(case, s) for s in systems)] for case in cases]
 
 
+def cold(results):
+    """Median times of whole cycles that begin with cold caches."""
+    def time(case, system):
+        value = results.get('monitor', case, system, 'us_cold_median')
+        return '-' if value is None else number(value)
+    cases = [c for c in results.cases('monitor') if time(c, 'sdf_ccd') != '-']
+    systems = [s for s in SYSTEMS if any(time(case, s) != '-' for case in cases)]
+    return ['case', *(s + ', us' for s in systems)], [[case, *(time(case, s) for s in systems)] for case in cases]
+
+
 def verdicts(results):
     """Verdicts of our cycles, and the cost of preparing the scene."""
     rows = []
@@ -54,4 +64,5 @@ def depths(results):
     return ['case', 'by fields, mm', 'refined, mm', 'contacts that can be refined, %'], rows
 
 
-TABLES = {'monitor_depths': depths, 'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_verdicts': verdicts}
+TABLES = {'monitor_depths': depths, 'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_cold': cold,
+          'monitor_verdicts': verdicts}
