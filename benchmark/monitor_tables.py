@@ -4,24 +4,24 @@ from results import number
 SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'sdf_ccd_deepest', 'fcl', 'fcl_distance', 'bullet', 'bullet_cast']
 
 
-def cycles(results):
-    """Times of whole cycles of the systems that were run."""
+def by_system(results, metrics):
+    """Times of the systems that were run, in the cases for which ours has one."""
     def times(case, system):
-        values = [results.get('monitor', case, system, 'us_' + name) for name in ('median', 'p99', 'p999')]
+        values = [results.get('monitor', case, system, metric) for metric in metrics]
         return '-' if None in values else ' / '.join(map(number, values))
-    cases = results.cases('monitor')
+    cases = [case for case in results.cases('monitor') if times(case, 'sdf_ccd') != '-']
     systems = [s for s in SYSTEMS if any(times(case, s) != '-' for case in cases)]
     return ['case', *(s + ', us' for s in systems)], [[case, *(times(case, s) for s in systems)] for case in cases]
 
 
+def cycles(results):
+    """Times of whole cycles."""
+    return by_system(results, ['us_median', 'us_p99', 'us_p999'])
+
+
 def cold(results):
     """Median times of whole cycles that begin with cold caches."""
-    def time(case, system):
-        value = results.get('monitor', case, system, 'us_cold_median')
-        return '-' if value is None else number(value)
-    cases = [c for c in results.cases('monitor') if time(c, 'sdf_ccd') != '-']
-    systems = [s for s in SYSTEMS if any(time(case, s) != '-' for case in cases)]
-    return ['case', *(s + ', us' for s in systems)], [[case, *(time(case, s) for s in systems)] for case in cases]
+    return by_system(results, ['us_cold_median'])
 
 
 def verdicts(results):

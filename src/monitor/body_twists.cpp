@@ -24,19 +24,18 @@ constexpr double kNoise = 0x1p-19;  // 32 u
 /// Lengths below this have squares that underflow in single precision.
 constexpr double kMin = 1e-18;  // [m]
 
-using Bits __attribute__((vector_size(32))) = std::int64_t;
 using BitsInMemory __attribute__((vector_size(32), aligned(8), may_alias)) = std::int64_t;
 
 /// The bits in which two poses differ, in any coordinate.
-SDF_CCD_INLINE Bits difference(const Isometry3d& a, const Isometry3d& b) {
-  Bits differ{};
+SDF_CCD_INLINE lanes::LongInts difference(const Isometry3d& a, const Isometry3d& b) {
+  lanes::LongInts differ{};
   for (int i = 0; i < 16; i += 4)
     differ |=
         *reinterpret_cast<const BitsInMemory*>(a.data() + i) ^ *reinterpret_cast<const BitsInMemory*>(b.data() + i);
   return differ;
 }
 
-SDF_CCD_INLINE bool isZero(const Bits& bits) {
+SDF_CCD_INLINE bool isZero(const lanes::LongInts& bits) {
   return (bits[0] | bits[1] | bits[2] | bits[3]) == 0;
 }
 

@@ -113,10 +113,8 @@ class Largest {
   float above_;
 };
 
-using Pairs __attribute__((vector_size(sizeof(Ints)))) = std::int64_t;  // of lanes
-
 SDF_CCD_INLINE bool allTrue(const Ints& lanes) {
-  const Pairs pairs = Pairs(lanes);  // a lane is −1 if true
+  const auto pairs = reinterpret_cast<LongInts>(lanes);  // of lanes; a lane is −1 if true
   return (pairs[0] & pairs[1] & pairs[2] & pairs[3]) == -1;
 }
 

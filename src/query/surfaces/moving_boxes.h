@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "geometry/trees/box_tree.h"
@@ -17,6 +18,11 @@ constexpr double kTriangleRounding = 32.0 * std::numeric_limits<double>::epsilon
 /// The same bound [m].
 inline double triangleRounding(const BoxTree& a, const BoxTree& b, const EndPoses& poses) {
   return kTriangleRounding * coordinateSize(a, b, poses);
+}
+
+/// The cut for boxes' gaps: a gap that exceeds it in single precision exceeds the given one in double precision [m].
+inline float cutOfBoxes(double cut) {
+  return std::nextafter(static_cast<float>(cut), std::numeric_limits<float>::infinity());
 }
 
 /// Tests boxes of two trees while B moves relative to A, from one pose to another along chords: at the pose halfway,

@@ -1,7 +1,6 @@
 #include "separation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "common/infinity.h"
@@ -126,8 +125,7 @@ class SeparationQuery {
 
   void setCut(double cut) {
     cut_ = cut;
-    // A gap that exceeds the margin in single precision exceeds it in double precision.
-    cut_of_boxes_ = std::nextafter(static_cast<float>(cut), std::numeric_limits<float>::infinity());
+    cut_of_boxes_ = cutOfBoxes(cut);
   }
 
   /// Tests all triangles over an interval.
@@ -414,7 +412,7 @@ class SeparationQuery {
   bool is_direction_new_ = false;           // and not yet that of the boxes' tests
   double nearest_ = kInfinity;              // gap of the nearest triangles tested exactly
   double cut_ = 0.0;
-  float cut_of_boxes_ = 0.0F;      // not less
+  float cut_of_boxes_ = 0.0F;      // cutOfBoxes(cut_), which takes a while
   double lowest_ = kInfinity;      // the smallest gap used in a proof
   std::optional<Vector3d> plane_;  // the direction of the last plane between the hulls
   int next_plane_ = kLongSearch;   // the number of tests after which it is looked for

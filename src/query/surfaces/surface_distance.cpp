@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/infinity.h"
 #include "moving_boxes.h"
@@ -80,8 +79,7 @@ class DistanceQuery {
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    // A gap that exceeds the limit in single precision exceeds it in double precision.
-    const float cut = std::nextafter(static_cast<float>(std::min(best_, 1e29)), std::numeric_limits<float>::infinity());
+    const float cut = cutOfBoxes(std::min(best_, 1e29));
     into_a ? boxes_.gapsInA(node, at.b, cut, found) : boxes_.gapsInB(node, at.a, cut, found);
     const std::size_t first = memory_.stack.size();
     for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
