@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"
@@ -25,6 +26,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
+constexpr std::size_t kNamedBodies = 20;       // bodies in a message
 constexpr std::size_t kMotionsPerThread = 16;  // in one piece, so that all threads have work in each
 constexpr double kLong = 0.05;                 // freed memory is returned after answers that take longer [s]
 
@@ -313,15 +315,22 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   std::vector<Isometry3d> X_WB;
   std::vector<std::string> missing;
   posesAt(history_, world->bodies, request.header.stamp, X_WB, missing);
+  std::vector<std::string> without_field;
   for (std::size_t body = 0; body < missing.size(); ++body) {
     const Body& description = scene.bodies[body];
     if (!description.failure.empty()) {
       response.message += "ignored: " + description.failure + "\n";
     } else if (!missing[body].empty()) {
       refuse("body " + description.name + ": " + missing[body]);
-    } else if (!description.parts.empty() && !description.warning.empty()) {
+    } else if (description.parts.empty()) {
+      without_field.push_back(description.name);
+    } else if (!description.warning.empty()) {
       response.message += "body " + description.name + ": " + description.warning + "\n";
     }
+  }
+  if (!without_field.empty()) {
+    response.message += "ignored, though they may be nearer, as no pair needs their distance fields: " +
+                        firstOf(without_field, kNamedBodies) + "\n";
   }
   double spent = 0.0;
   for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {
