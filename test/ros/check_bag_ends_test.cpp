@@ -58,6 +58,29 @@ TEST_F(CheckBag, BadBagsAreRefused) {
   }
 }
 
+TEST_F(CheckBag, ADamagedNumberOfTransformsIsNamed) {
+  const tf2_msgs::TFMessage message = test::message({stampedTransform("turret", "yaw_link", kBegin, 1.0)});
+  rosbag::Bag(path("count.bag").string(), rosbag::bagmode::Write).write("/tf", ros::Time(kBegin), message);
+  std::string bytes = readText(path("count.bag"));
+  const std::uint32_t length = ros::serialization::serializationLength(message);
+  std::string data(length, '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(&data[0]), length);
+  ros::serialization::serialize(stream, message);
+  const std::size_t place = bytes.find(data);
+  ASSERT_NE(place, std::string::npos);
+  bytes.replace(place, 4, "\xff\xff\xff\xff");
+  write("count.bag", bytes);
+  expectRefused(check("count.bag", "no"),
+                "count.bag: is cut short or damaged: a message on /tf has more elements than");
+}
+
+TEST_F(CheckBag, TransformsOnOtherTopicsAreNamed) {
+  rosbag::Bag bag(path("other.bag").string(), rosbag::bagmode::Write);
+  bag.write("/arm/tf", ros::Time(kBegin), message({stampedTransform("base", "turret", kBegin, 1.0)}));
+  bag.close();
+  expectRefused(check("other.bag", "no"), "holds neither tf nor joint states; its transforms are on /arm/tf, and only");
+}
+
 TEST_F(CheckBag, AMessageThatHoldsNoVerdictIsRefused) {
   ContactArray message;
   message.cycle_start = ros::Time(kBegin);

@@ -295,7 +295,8 @@ TEST_F(Tool, LearnPairsWritesAnSrdf) {
   expectRefused(command + "--seed -1 --out no.srdf", "--seed must not be negative");
   expectRefused("learn-pairs --urdf arm.urdf --max-error 0 --out no.srdf", "--max-error must be positive");
   expectRefused(command + "--srdf missing.srdf --out no.srdf", "missing.srdf");
-  expectRefused("learn-pairs --urdf missing.urdf --out no.srdf", "missing.urdf");
+  expectRefused("learn-pairs --urdf missing.urdf --out no.srdf",
+                "missing.urdf: no such file (" + path("missing.urdf").string() + " does not exist)\n");
   expectRefused(command + "--out nowhere/no.srdf", "nowhere/no.srdf: cannot write");
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <new>
 #include <stdexcept>
 #include <string>
 
 #include <rosbag/exceptions.h>
+#include <rosbag/message_instance.h>
 
 namespace sdf_ccd {
 
@@ -23,6 +25,17 @@ void readBag(const std::string& file, const Call& call) {
   } catch (const ros::Exception& error) {  // about the bag's format or a message's
     throw std::runtime_error(file + ": is cut short or damaged: " + error.what() + ": try `rosbag reindex " + file +
                              "`, which keeps what can be read");
+  }
+}
+
+/// A message of a bag; null if it is of another type.
+/// @throws rosbag::BagFormatException also if a damaged number of elements asks for more memory than there is.
+template <class Message>
+typename Message::ConstPtr messageOf(const rosbag::MessageInstance& message) {
+  try {
+    return message.instantiate<Message>();
+  } catch (const std::bad_alloc&) {
+    throw rosbag::BagFormatException("a message on " + message.getTopic() + " has more elements than fit in memory");
   }
 }
 

@@ -55,15 +55,21 @@ void RecordedMotion::findTopics() {
   end_ = options_.duration < (last - begin_).toSec() ? begin_ + ros::Duration(options_.duration) : last;
 
   const std::string tf_type = ros::message_traits::md5sum<tf2_msgs::TFMessage>();  // that of tf/tfMessage is the same
-  std::set<std::string> tf, joint_states;
+  std::set<std::string> tf, other_tf, joint_states;
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     const std::string name = withoutLeadingSlash(connection->topic);
-    if ((name == "tf" || name == "tf_static") && connection->md5sum == tf_type) tf.insert(connection->topic);
+    const bool is_read = name == "tf" || name == "tf_static";
+    if (connection->md5sum == tf_type) (is_read ? tf : other_tf).insert(connection->topic);
     if (connection->datatype == "sensor_msgs/JointState") joint_states.insert(connection->topic);
   }
   tf_topics_.assign(tf.begin(), tf.end());
   joint_state_topics_.assign(joint_states.begin(), joint_states.end());
-  if (tf.empty() && joint_states.empty()) throw std::runtime_error(file_ + ": holds neither tf nor joint states");
+  if (tf.empty() && joint_states.empty()) {
+    throw std::runtime_error(file_ + ": holds neither tf nor joint states" +
+                             (other_tf.empty() ? ""
+                                               : "; its transforms are on " + firstOf(other_tf, kNamed) +
+                                                     ", and only those on /tf and /tf_static are read"));
+  }
 }
 
 void RecordedMotion::findFrames(const DescribedScene& described) {
@@ -72,7 +78,7 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   if (described.fixed_frame != described.root_frame) wanted.insert(described.fixed_frame);
   rosbag::View view(bag_, rosbag::TopicQuery(tf_topics_), ros::TIME_MIN, end_);
   for (auto message = view.begin(); message != view.end() && !wanted.empty(); ++message) {
-    const tf2_msgs::TFMessage::ConstPtr tf = message->instantiate<tf2_msgs::TFMessage>();
+    const tf2_msgs::TFMessage::ConstPtr tf = messageOf<tf2_msgs::TFMessage>(*message);
     if (!tf) continue;
     for (const geometry_msgs::TransformStamped& transform : tf->transforms) {
       const std::string child = withoutLeadingSlash(transform.child_frame_id);
@@ -143,12 +149,12 @@ std::string RecordedMotion::findJointStates() {
   } else if (is_asked || topics.empty()) {
     return "it contains no joint states" + (is_asked ? " on " + wanted : "");
   } else if (topics.size() > 1) {
-    return "it holds joint states on " + firstOf(topics, kNamed) + ": choose one of them";
+    return "it holds joint states on " + firstOf(topics, kNamed) + ": choose one of them with --joint-states";
   }
   std::set<std::string> names, left = unnamed_;
   rosbag::View view(bag_, rosbag::TopicQuery(topics), ros::TIME_MIN, end_);
   for (auto message = view.begin(); message != view.end() && !left.empty(); ++message) {
-    const sensor_msgs::JointState::ConstPtr joints = message->instantiate<sensor_msgs::JointState>();
+    const sensor_msgs::JointState::ConstPtr joints = messageOf<sensor_msgs::JointState>(*message);
     if (!joints) continue;
     names.insert(joints->name.begin(), joints->name.end());
     for (const std::string& name : joints->name) left.erase(name);
@@ -204,9 +210,9 @@ void RecordedMotion::playMessage(const rosbag::MessageInstance& message,
     all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
     if (!all.empty()) each({recorded, transforms, is_static});
   };
-  if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {
+  if (const auto tf = messageOf<tf2_msgs::TFMessage>(message)) {
     keep(*tf, false, isStatic(message.getTopic()));
-  } else if (const auto joints = message.instantiate<sensor_msgs::JointState>()) {
+  } else if (const auto joints = messageOf<sensor_msgs::JointState>(message)) {
     joint_watch_.add(*joints);
     const std::size_t given = std::min(joints->name.size(), joints->position.size());
     for (std::size_t i = 0; i < given; ++i) unnamed_.erase(joints->name[i]);

@@ -39,7 +39,7 @@ JointStates recordedPositions(const std::string& file, const RobotModel& robot, 
     std::vector<double> positions;
     for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
       if (!topic.empty() && withoutLeadingSlash(message.getTopic()) != withoutLeadingSlash(topic)) continue;
-      const auto joints = message.instantiate<sensor_msgs::JointState>();
+      const auto joints = messageOf<sensor_msgs::JointState>(message);
       if (!joints) continue;
       const std::size_t count = std::min(joints->name.size(), joints->position.size());
       const auto isRobots = [&](std::size_t i) { return robot.urdf().joints_.count(joints->name[i]) != 0; };

@@ -131,7 +131,8 @@ Checked check(const RecordedMotion& motion, const MonitorParameters& parameters,
 void requireChecked(const CycleStatistics& statistics, const Scene& scene, const std::string& bag) {
   const std::vector<CycleRecord>& cycles = statistics.cycles();
   const std::string why = statistics.whyNotChecked();
-  require(!cycles.empty(), bag + ": no cycle: the robot's transforms are never known at the same time");
+  require(!cycles.empty(),
+          bag + ": no cycle: the robot's transforms are never known at the same time, or all of them are static");
   const bool is_checked =
       std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); });
   if (!is_checked && why.empty()) std::cerr << planTable(scene) << std::flush;  // an error is one line

@@ -41,7 +41,7 @@ void addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& repor
   std::size_t count = 0;
   for (const rosbag::MessageInstance& message : view) {
     bar(double(++count) / double(view.size()));
-    const auto contacts = message.instantiate<ContactArray>();
+    const auto contacts = messageOf<ContactArray>(message);
     if (!contacts) throw std::runtime_error(topic + " is of another version of sdf_ccd/ContactArray");
     report.add(*contacts);
   }
