@@ -7,5 +7,6 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor/nearest_body.h"
 #include "sdf_ccd/monitor/world.h"
 #include "sdf_ccd/query/segment_query.h"

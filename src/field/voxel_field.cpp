@@ -9,16 +9,16 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kSide = VoxelBlock::kSide;
+constexpr int kBlockSide = VoxelBlock::kSide;
 
 /// Voxels outside the block are free.
 bool isOccupied(const VoxelBlock& block, const Vector3i& v) {
-  return v.minCoeff() >= 0 && v.maxCoeff() < kSide && block.occupied[VoxelBlock::index(v.x(), v.y(), v.z())];
+  return v.minCoeff() >= 0 && v.maxCoeff() < kBlockSide && block.occupied[VoxelBlock::index(v.x(), v.y(), v.z())];
 }
 
 AlignedBox3d boxOf(const VoxelBlock& block, const VoxelLattice& lattice) {
   AlignedBox3d box;
-  forEachPoint(Vector3i::Constant(kSide), [&](const Vector3i& v) {
+  forEachPoint(Vector3i::Constant(kBlockSide), [&](const Vector3i& v) {
     if (!isOccupied(block, v)) return;
     box.extend(lattice.origin + lattice.size * v.cast<double>());
     box.extend(lattice.origin + lattice.size * (v + Vector3i::Ones()).cast<double>());
@@ -29,7 +29,7 @@ AlignedBox3d boxOf(const VoxelBlock& block, const VoxelLattice& lattice) {
 }  // namespace
 
 TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice) {
-  constexpr int kCorners = kSide + 1;
+  constexpr int kCorners = kBlockSide + 1;
   TriangleMesh mesh;
   std::vector<int> vertices(std::size_t{kCorners} * kCorners * kCorners, -1);
   const auto vertex = [&](const Vector3i& corner) {
@@ -40,7 +40,7 @@ TriangleMesh voxelSurface(const VoxelBlock& block, const VoxelLattice& lattice) 
     }
     return known;
   };
-  forEachPoint(Vector3i::Constant(kSide), [&](const Vector3i& v) {
+  forEachPoint(Vector3i::Constant(kBlockSide), [&](const Vector3i& v) {
     if (!isOccupied(block, v)) return;
     for (int axis = 0; axis < 3; ++axis)
       for (const bool upper : {false, true}) {
@@ -72,7 +72,7 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
   LatticeDistance distances;
   // The window has one layer of free voxels around the block. The voxels beyond are free too, and never the nearest
   // free ones of a point in the block.
-  distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kSide),
+  distances.compute(kCells, grid.low, shape.cells().array() + 1, Vector3i::Constant(-1), Vector3i::Constant(kBlockSide),
                     [&](const Vector3i& v) { return isOccupied(block, v); });
 
   GridData data;

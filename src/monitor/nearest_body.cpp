@@ -1,25 +1,134 @@
-#include <algorithm>
-#include <limits>
+#include "sdf_ccd/monitor/nearest_body.h"
 
-#include "sdf_ccd/monitor/monitor.h"
+#include <algorithm>
+#include <exception>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "body/mesh_distance.h"
+#include "common/infinity.h"
 
 namespace sdf_ccd {
+namespace {
 
-NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) {
+constexpr std::size_t kMaxTriangles = 500'000;  // of a mesh without a field, which take up to 0.5 GB
+
+using MeshPointer = std::shared_ptr<const TriangleMesh>;
+
+}  // namespace
+
+class MeshDistances {
+ public:
+  /// @throws std::invalid_argument as MeshDistance().
+  std::shared_ptr<const MeshDistance> find(const GeometryDescription& geometry) {
+    const MeshPointer& mesh = std::get<MeshPointer>(geometry.shape);
+    // A mesh that is gone may have left its address to another.
+    for (auto known = known_.begin(); known != known_.end();)
+      known = known->second.mesh.expired() ? known_.erase(known) : std::next(known);
+    Known& known = known_[mesh.get()];
+    if (!known.distance) known = {mesh, std::make_shared<const MeshDistance>(geometry)};
+    return known.distance;
+  }
+
+ private:
+  struct Known {
+    std::weak_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<const MeshDistance> distance;
+  };
+  std::unordered_map<const TriangleMesh*, Known> known_;
+};
+
+std::shared_ptr<MeshDistances> makeMeshDistances() {
+  return std::make_shared<MeshDistances>();
+}
+
+/// One element of a body: a primitive, a mesh without a field, or a field.
+class NearestBodySearch::Element {
+ public:
+  Element(const Isometry3d& X_BG, DistanceField field) : X_GB_(X_BG.inverse()), source_(std::move(field)) {}
+  Element(const Isometry3d& X_BG, std::shared_ptr<const MeshDistance> mesh)
+      : X_GB_(X_BG.inverse()), source_(std::move(mesh)) {}
+
+  Vector3d toElement(const Vector3d& p_B) const { return X_GB_ * p_B; }
+
+  double lowerBound(const Vector3d& p_G) const {
+    if (const auto* field = std::get_if<DistanceField>(&source_)) return field->lowerBound(p_G);
+    return std::get<MeshDistancePointer>(source_)->lowerBound(p_G);
+  }
+
+  /// Its gradient is in the frame of the body.
+  FieldSample sample(const Vector3d& p_G) const {
+    const auto* field = std::get_if<DistanceField>(&source_);
+    FieldSample sample = field ? field->meshSample(p_G) : std::get<MeshDistancePointer>(source_)->sample(p_G);
+    sample.gradient = X_GB_.linear().transpose() * sample.gradient;
+    return sample;
+  }
+
+ private:
+  using MeshDistancePointer = std::shared_ptr<const MeshDistance>;
+
+  Isometry3d X_GB_;
+  std::variant<DistanceField, MeshDistancePointer> source_;
+};
+
+NearestBodySearch::NearestBodySearch(std::shared_ptr<const Scene> scene,
+                                     std::shared_ptr<const SceneDescription> description,
+                                     std::shared_ptr<MeshDistances> meshes)
+    : scene_(std::move(scene)),
+      description_(std::move(description)),
+      meshes_(meshes ? std::move(meshes) : makeMeshDistances()),
+      elements_(scene_->bodies.size()) {}
+
+NearestBodySearch::~NearestBodySearch() = default;
+
+std::string NearestBodySearch::prepare(std::size_t body) {
+  const Body& ready = scene_->bodies[body];
+  std::vector<Element> elements;
+  std::string doubts;
+  if (!ready.failure.empty()) return "ignored: " + ready.failure;
+  for (const BodyPart& part : ready.parts) elements.emplace_back(part.X_BG, part.field);
+  if (!elements.empty()) {
+    elements_[body] = std::move(elements);
+    return ready.warning;
+  }
+  for (const GeometryDescription& geometry : description_->bodies[body].geometry) {
+    if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
+      elements.emplace_back(geometry.X_BG, DistanceField(*primitive));
+      continue;
+    }
+    const std::size_t triangles = std::get<MeshPointer>(geometry.shape)->triangles.size();
+    if (triangles > kMaxTriangles)
+      return fmt::format("ignored: {} has {} triangles and no field", geometry.source, triangles);
+    try {
+      elements.emplace_back(geometry.X_BG, meshes_->find(geometry));
+    } catch (const std::exception& error) {
+      return fmt::format("ignored: {}: {}", geometry.source, error.what());
+    }
+    if (const std::string& doubt = meshes_->find(geometry)->warning(); !doubt.empty())
+      doubts += (doubts.empty() ? "" : "; ") + doubt;
+  }
+  elements_[body] = std::move(elements);
+  return doubts;
+}
+
+NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const {
   NearestBody nearest;
-  nearest.distance = std::numeric_limits<double>::infinity();
-  double low = nearest.distance;  // lower bound of all distances
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    if (!scene.bodies[b].failure.empty()) continue;
+  nearest.distance = kInfinity;
+  double low = kInfinity;  // lower bound of all distances
+  for (std::size_t b = 0; b < elements_.size(); ++b) {
+    if (elements_[b].empty()) continue;
     const Matrix3d& R_WB = X_WB[b].linear();
     const Vector3d p_B = R_WB.transpose() * (p_W - X_WB[b].translation());
-    for (const BodyPart& part : scene.bodies[b].parts) {
-      const Vector3d p_G = part.X_BG.inverse() * p_B;
-      if (part.field.lowerBound(p_G) > nearest.distance) continue;
-      const FieldSample sample = part.field.meshSample(p_G);
+    for (const Element& element : elements_[b]) {
+      const Vector3d p_G = element.toElement(p_B);
+      if (element.lowerBound(p_G) > nearest.distance) continue;
+      const FieldSample sample = element.sample(p_G);
       low = std::min(low, sample.value - sample.error);
       if (sample.value >= nearest.distance) continue;
-      nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * (part.X_BG.linear() * sample.gradient)};
+      nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * sample.gradient};
     }
   }
   if (nearest.body < 0) return {};

@@ -237,17 +237,4 @@ class Monitor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Distance from a point to the nearest body at given poses; for the point queries. For a mesh with openings, the error
-/// covers that the point may be on either side, and that the nearest surface may be a cap: see
-/// DistanceField::meshSample().
-struct NearestBody {
-  int body = -1;          ///< -1 if no body has a field
-  double distance = 0.0;  ///< [m], negative inside
-  double error = 0.0;     ///< [m]
-  Vector3d gradient_W = Vector3d::Zero();
-};
-/// The nearest body to a point p_W; bodies that could not be prepared are passed over.
-/// @param X_WB  per body of the scene.
-NearestBody nearestBody(const Scene& scene, const std::vector<Isometry3d>& X_WB, const Vector3d& p_W);
-
 }  // namespace sdf_ccd

@@ -26,8 +26,8 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
-constexpr std::size_t kNamedBodies = 20;       // bodies in a message
 constexpr std::size_t kMotionsPerThread = 16;  // in one piece, so that all threads have work in each
+constexpr double kPreparing = 60.0;            // to prepare one body for point queries, once [s]
 constexpr double kLong = 0.05;                 // freed memory is returned after answers that take longer [s]
 
 void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
@@ -315,22 +315,15 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   std::vector<Isometry3d> X_WB;
   std::vector<std::string> missing;
   posesAt(history_, world->bodies, request.header.stamp, X_WB, missing);
-  std::vector<std::string> without_field;
+  NearestBodySearch search(world->snapshot->scene, world->snapshot->description, meshes_);
   for (std::size_t body = 0; body < missing.size(); ++body) {
     const Body& description = scene.bodies[body];
-    if (!description.failure.empty()) {
-      response.message += "ignored: " + description.failure + "\n";
-    } else if (!missing[body].empty()) {
+    if (description.failure.empty() && !missing[body].empty())
       refuse("body " + description.name + ": " + missing[body]);
-    } else if (description.parts.empty()) {
-      without_field.push_back(description.name);
-    } else if (!description.warning.empty()) {
-      response.message += "body " + description.name + ": " + description.warning + "\n";
-    }
-  }
-  if (!without_field.empty()) {
-    response.message += "ignored, though they may be nearer, as no pair needs their distance fields: " +
-                        firstOf(without_field, kNamedBodies) + "\n";
+    double spent = limits_.seconds - kPreparing;
+    const Piece piece(*this, spent);
+    const std::string doubt = search.prepare(body);
+    if (!doubt.empty()) response.message += "body " + description.name + ": " + doubt + "\n";
   }
   double spent = 0.0;
   for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {
@@ -344,7 +337,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
       if (!isNearOrigin(p_W)) {
         refuse("point " + std::to_string(i) + " is more than " + numberText(kFarthestPose) + " m from the origin");
       }
-      const NearestBody nearest = nearestBody(scene, X_WB, p_W);
+      const NearestBody nearest = search.nearest(X_WB, p_W);
       const bool none = nearest.body < 0;
       response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
       response.errors.push_back(nearest.error);

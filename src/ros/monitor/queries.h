@@ -15,6 +15,7 @@
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/QueryMotions.h"
 #include "sdf_ccd/QueryPoints.h"
+#include "sdf_ccd/monitor/nearest_body.h"
 
 namespace sdf_ccd {
 
@@ -76,6 +77,7 @@ class Queries {
   ros::Publisher marker_publisher_;  // if it is empty, nothing is drawn
   QueryLimits limits_;
   WorkTurns turns_;
+  std::shared_ptr<MeshDistances> meshes_ = makeMeshDistances();  // used by one answer at a time
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
   WorkArena arena_;
 };

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/monitor/scene.h"
+
+namespace sdf_ccd {
+
+/// Distance from a point to the nearest body at given poses; for the point queries. For a mesh with openings, the error
+/// covers that the point may be on either side, and that the nearest surface may be a cap: see
+/// DistanceField::meshSample().
+struct NearestBody {
+  int body = -1;          ///< -1 if no body is known
+  double distance = 0.0;  ///< [m], negative inside
+  double error = 0.0;     ///< [m]
+  Vector3d gradient_W = Vector3d::Zero();
+};
+
+/// Triangles of meshes that have no field, each prepared when it is first needed and kept as long as the mesh is in
+/// use. Several searches may share them. Not thread-safe.
+class MeshDistances;
+/// None yet.
+std::shared_ptr<MeshDistances> makeMeshDistances();
+
+/// Finds the nearest body to points. A body with a distance field is as far as that says; all others are as far as
+/// their primitives and the triangles of their meshes are, which need no field.
+class NearestBodySearch {
+ public:
+  /// @param description  of the scene.
+  /// @param meshes       null: they are not shared.
+  NearestBodySearch(std::shared_ptr<const Scene> scene, std::shared_ptr<const SceneDescription> description,
+                    std::shared_ptr<MeshDistances> meshes = nullptr);
+  ~NearestBodySearch();
+
+  /// Prepares the meshes of one body, if it has no field. Takes some ten microseconds per triangle the first time.
+  /// @return what is uncertain about the body's inside, or why it is left out; empty if there is nothing to say.
+  std::string prepare(std::size_t body);
+
+  /// The nearest of the bodies that are prepared. @param X_WB  per body of the scene.
+  NearestBody nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const;
+
+ private:
+  class Element;
+
+  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const SceneDescription> description_;
+  std::shared_ptr<MeshDistances> meshes_;
+  std::vector<std::vector<Element>> elements_;  // per body; empty until it is prepared
+};
+
+}  // namespace sdf_ccd
