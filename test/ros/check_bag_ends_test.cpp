@@ -68,10 +68,12 @@ TEST_F(CheckBag, ADamagedNumberOfTransformsIsNamed) {
   ros::serialization::serialize(stream, message);
   const std::size_t place = bytes.find(data);
   ASSERT_NE(place, std::string::npos);
-  bytes.replace(place, 4, "\xff\xff\xff\xff");
-  write("count.bag", bytes);
-  expectRefused(check("count.bag", "no"),
-                "count.bag: is cut short or damaged: a message on /tf has more elements than");
+  for (const std::string count : {"\xff\xff\xff\xff", "\x40\x42\x0f\x01"}) {  // 16 million: a few GB
+    bytes.replace(place, 4, count);
+    write("count.bag", bytes);
+    expectRefused(check("count.bag", "no"),
+                  "count.bag: is cut short or damaged: a message on /tf has more elements than");
+  }
 }
 
 TEST_F(CheckBag, TransformsOnOtherTopicsAreNamed) {

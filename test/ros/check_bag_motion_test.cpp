@@ -87,5 +87,29 @@ TEST_F(CheckBag, TransformsStampedAheadOfTheBagsClockAreChecked) {
   EXPECT_NEAR(std::stod(Row(table("again/cycles.csv").back())["t1"]), last.toSec(), 1e-6);
 }
 
+/// As of a robot that only stands there: nothing else tells where its links are.
+TEST_F(CheckBag, StaticTransformsAloneAreChecked) {
+  write("still.urdf", R"(<robot name="still">
+    <link name="base"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <link name="free"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+    <joint name="j" type="floating"><parent link="base"/><child link="free"/></joint></robot>)");
+  write("still.yaml", "check_adjacent: true\ncache: false\n");
+  for (const int messages : {1, 2, 31}) {
+    {
+      rosbag::Bag bag(path("still.bag").string(), rosbag::bagmode::Write);
+      for (int i = 0; i < messages; ++i)
+        bag.write("/tf_static", ros::Time(kBegin + 0.1 * i), message({stampedTransform("base", "free", kBegin, 0.15)}));
+    }
+    const ToolRun result = run("check-bag still.bag --urdf still.urdf --config still.yaml --out still");
+    ASSERT_EQ(result.exit_code, kDone) << result.error;
+    const std::vector<Row> cycles = table("still/cycles.csv");
+    ASSERT_FALSE(cycles.empty());
+    for (Row cycle : cycles) EXPECT_EQ(cycle["verdict"], "CONTACT");
+    constexpr double kPeriod = 1.0 / 30.0;  // by default
+    EXPECT_LE(std::stod(Row(cycles.back())["t1"]), kBegin + 0.1 * (messages - 1) + kPeriod + 1e-6);
+    EXPECT_NEAR(double(cycles.size()), std::max(1.0, 0.1 * (messages - 1) / kPeriod), 2.0);
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -1,13 +1,16 @@
+#include <std_msgs/Float64.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <set>
 
 #include <rosbag/view.h>
 
 #include "ros/check_bag_case.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
@@ -81,6 +84,43 @@ TEST_F(CheckBag, WritesABagThatHoldsWhatTheMonitorPublishes) {
   EXPECT_EQ(counts["/collision_monitor/world"], 1u);
   EXPECT_EQ(counts["/tf_static"], 1u);
   EXPECT_EQ(counts["/tf"], std::size_t(kBefore + 4 + kAfter));
+}
+
+/// The finger's side is at y = kReach sin(yaw) + its radius, in front of the plate at first, and behind it later.
+TEST_F(CheckBag, MeasuresDistancesAsTheMonitorDoes) {
+  const std::string world = readText(SDF_CCD_SOURCE_DIR "/config/demo/world.yaml");
+  write("near.yaml", world +
+                         "cache: false\nreport_distance: 0.2\nwarning_distance: 0.03\nstop_distance: 0.01\n"
+                         "velocity_scale: {max_speed: 1.0}\n");
+  const ToolRun result = run(check("arm.bag", "made", "--config near.yaml "));
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  std::size_t distances = 0, scales = 0, states = 0;
+  std::set<int> levels;
+  double first = 0.0;
+  rosbag::Bag bag(path("made/checked.bag").string());
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    if (const auto near = message.instantiate<DistanceArray>()) {
+      ++distances;
+      EXPECT_EQ(near->range, 0.2);
+      for (const Distance& pair : near->distances) {
+        const bool is_hand = pair.body_a == "hand" || pair.body_b == "hand";
+        const bool is_plate = pair.body_a == "plate" || pair.body_b == "plate";
+        if (is_hand && is_plate && first == 0.0) first = pair.distance;
+      }
+    } else if (const auto state = message.instantiate<MonitorState>()) {
+      ++states;
+      levels.insert(state->proximity);
+    } else if (const auto scale = message.instantiate<std_msgs::Float64>()) {
+      ++scales;
+      EXPECT_EQ(message.getTopic(), "/collision_monitor/velocity_scale");
+      EXPECT_GE(scale->data, 0.0);
+      EXPECT_LE(scale->data, 1.0);
+    }
+  }
+  EXPECT_NEAR(first, kPlateY - kHalfPlate - kReach * std::sin(kFirstYaw) - kFinger, 1e-4);
+  EXPECT_EQ(distances, table("made/cycles.csv").size());
+  EXPECT_EQ(scales, states);
+  EXPECT_EQ(levels, (std::set<int>{MonitorState::FREE, MonitorState::WARNING, MonitorState::STOP}));
 }
 
 TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {

@@ -16,11 +16,13 @@ constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // limits set by
 void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
               BagObserver& observer) {
   const ros::Duration period(std::clamp(1.0 / parameters.rate, kShortestPeriod, kLongestPeriod));
+  ros::Time::init();
   CycleRequest request;
   request.max_points = parameters.max_points;
   request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
   ros::Time last_cycle;  // 0: none since the last jump of time
+  ros::Time last_stamp = motion.end();
   // When transforms resume, the next cycle begins at the end of the last one.
   const auto tellGap = [&](const ros::Time& now) {
     const ros::Time from = loop.cycle().end;
@@ -54,12 +56,17 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   motion.play([&](const RecordedTransforms& transforms) {
     runUntil(transforms.recorded);
     loop.history().add(transforms.message, transforms.is_static);
+    for (const geometry_msgs::TransformStamped& transform : transforms.message.transforms)
+      if (!transforms.is_static) last_stamp = std::max(last_stamp, transform.header.stamp);
     observer.onTransforms(transforms);
   });
   runUntil(motion.end());
   now = motion.end();
   TfTracker::Step step = stepAt(now);
-  while (step == TfTracker::Step::kCycle && secondsBetween(motion.end(), now) < kAhead) step = stepAt(now += period);
+  // Where nothing moves, as in a bag of static transforms, the first cycle may still have to end.
+  if (last_cycle.isZero() && step == TfTracker::Step::kWaiting) step = stepAt(now += period);
+  const ros::Time until = secondsBetween(motion.end(), last_stamp) < kAhead ? last_stamp : motion.end();
+  while (step == TfTracker::Step::kCycle && now < until) step = stepAt(now = std::min(now + period, until));
   if (step == TfTracker::Step::kStalled) tellGap(now);
 }
 

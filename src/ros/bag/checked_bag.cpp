@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include <std_msgs/Float64.h>
+
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/plan_message.h"
 
@@ -21,9 +23,14 @@ std::set<int> touching(const CycleResult& result) {
 
 }  // namespace
 
-CheckedBag::CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene,
-                       const MarkerOptions& markers)
-    : loop_(loop), drawer_(loop.fixedFrame(), markers), link_markers_(scene), bag_(bag) {}
+CheckedBag::CheckedBag(BagWriter& bag, MonitorLoop& loop, const SceneDescription& scene,
+                       const MonitorParameters& parameters)
+    : loop_(loop),
+      proximity_(parameters.proximity),
+      needs_{parameters.proximity.report_distance > 0.0, parameters.proximity.promise.has_value()},
+      drawer_(loop.fixedFrame(), parameters.markers),
+      link_markers_(scene),
+      bag_(bag) {}
 
 void CheckedBag::addScene(const SceneDescription& description, const ros::Time& begin) {
   writeLatched(kMonitor + "plan", begin, toPlan(*loop_.world(), loop_.fixedFrame(), begin));
@@ -43,7 +50,16 @@ void CheckedBag::addTransforms(const RecordedTransforms& transforms) {
 
 void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, contacts);
-  writeLatched(kMonitor + "state", now, toMonitorState(loop_, now));
+  const ProximityMeasure::Measured measured = proximity_.measure(needs_, loop_);
+  MonitorState state = toMonitorState(loop_, now);
+  state.proximity = measured.proximity;
+  writeLatched(kMonitor + "state", now, state);
+  if (measured.velocity_scale) writeScale(*measured.velocity_scale, now);
+  if (needs_.distances) {
+    DistanceArray distances;
+    setDistanceArray(loop_, proximity_.parameters().report_distance, distances);
+    bag_.write(kMonitor + "distances", now, distances);
+  }
   for (const int body : touching(loop_.result())) {
     const Body& link = loop_.scene().bodies[body];
     if (!link.is_world) bag_.write(kMonitor + wrenchTopic(link), now, toWrenchStamped(loop_, body));
@@ -59,9 +75,18 @@ void CheckedBag::addLinks(const ros::Time& now) {
 
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
-  writeLatched(kMonitor + "state", now, toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now));
+  MonitorState state = toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now);
+  state.proximity = proximity_.unchecked();
+  writeLatched(kMonitor + "state", now, state);
+  if (needs_.velocity_scale) writeScale(0.0, now);
   bag_.write(kMonitor + "markers", now, drawer_.clear(reason));
   addLinks(now);
+}
+
+void CheckedBag::writeScale(double scale, const ros::Time& now) {
+  std_msgs::Float64 message;
+  message.data = scale;
+  bag_.write(kMonitor + "velocity_scale", now, message);
 }
 
 template <class Message>

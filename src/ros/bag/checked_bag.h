@@ -8,6 +8,7 @@
 #include "ros/messages/link_markers.h"
 #include "ros/messages/markers.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/proximity_measure.h"
 
 namespace sdf_ccd {
 
@@ -17,6 +18,8 @@ namespace sdf_ccd {
 /// Below /collision_monitor/, as the nodelet publishes it:
 ///   contacts         sdf_ccd/ContactArray            every cycle; when cycles stop; after each gap
 ///   state            sdf_ccd/MonitorState            the same
+///   distances        sdf_ccd/DistanceArray           every cycle, if report_distance is set
+///   velocity_scale   std_msgs/Float64                as state, if velocity_scale/max_speed is set
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
 ///   markers          visualization_msgs/MarkerArray  contacts and status
 ///   links            visualization_msgs/MarkerArray  when a link's verdict changes
@@ -24,9 +27,9 @@ namespace sdf_ccd {
 class CheckedBag {
  public:
   /// @param bag    open and empty; the caller closes it. Its functions throw if it cannot be written.
-  /// @param loop   its last cycle is written by addCycle(). Loop and bag must outlive this.
+  /// @param loop   its last cycle is measured and written by addCycle(). Loop and bag must outlive this.
   /// @param scene  description from which the loop's scene was built.
-  CheckedBag(BagWriter& bag, const MonitorLoop& loop, const SceneDescription& scene, const MarkerOptions& markers);
+  CheckedBag(BagWriter& bag, MonitorLoop& loop, const SceneDescription& scene, const MonitorParameters& parameters);
 
   /// Writes the plan and the world, at the beginning of the bag.
   void addScene(const SceneDescription& description, const ros::Time& begin);
@@ -47,7 +50,11 @@ class CheckedBag {
   template <class Message>
   void writeLatched(const std::string& topic, const ros::Time& now, const Message& message);
 
-  const MonitorLoop& loop_;
+  void writeScale(double scale, const ros::Time& now);
+
+  MonitorLoop& loop_;
+  ProximityMeasure proximity_;
+  ProximityNeeds needs_;
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
   BagWriter& bag_;

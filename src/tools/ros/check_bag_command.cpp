@@ -121,7 +121,7 @@ struct Checked {
 Checked check(const RecordedMotion& motion, const MonitorParameters& parameters, const DescribedScene& described,
               MonitorLoop& loop, CheckFiles& files) {
   const auto start = std::chrono::steady_clock::now();
-  CheckedBag bag(files.bag, loop, described.scene, parameters.markers);
+  CheckedBag bag(files.bag, loop, described.scene, parameters);
   bag.addScene(described.scene, motion.begin());
   Recorder recorder(motion, loop, bag, files);
   checkBag(motion, parameters, loop, recorder);
@@ -249,7 +249,8 @@ void addCheckBagCommand(CLI::App& app) {
   command->footer(
       "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "
       "links that joints move and tf does not name, by joint_states and the URDF. Writes to DIR: checked.bag "
-      "(the transforms, and contacts, state, wrenches, markers, plan and world as the monitor publishes them; "
+      "(the transforms, and contacts, state, wrenches, markers, plan and world as the monitor publishes them, and "
+      "distances and velocity_scale if their parameters are set; "
       "roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
       "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
