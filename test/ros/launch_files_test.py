@@ -38,16 +38,18 @@ class LaunchFiles(unittest.TestCase):
         cls.master.wait()
         shutil.rmtree(cls.folder, ignore_errors=True)
 
-    def launch(self, *arguments, ns=None):
+    def launch(self, *arguments, ns=None, cwd=None):
         """Starts a monitor. Returns the fixed frame of its first state about the robot, all parameters, and the log."""
         environment = dict(os.environ)
+        if cwd:
+            environment['PWD'] = cwd  # as a shell does
         if ns:
             environment['ROS_NAMESPACE'] = ns
         name = next((a[6:] for a in arguments if a.startswith('name:=')), 'collision_monitor')
         topic = '/'.join(['', *([ns] if ns else []), name, 'state'])
         states = Recorder(topic, MonitorState, PATIENCE)
         started = subprocess.Popen(['roslaunch', 'sdf_ccd', 'monitor.launch', 'config:=' + self.config, *arguments],
-                                   env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                                   env=environment, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         of_robot = states.find(lambda state: state.header.frame_id)
         parameters = rospy.get_param('/')
         states.close()
@@ -68,6 +70,17 @@ class LaunchFiles(unittest.TestCase):
         self.assertNotIn('octomap', parameters['collision_monitor'])
         self.assertNotIn('none.bt', log)
         self.assertNotIn('Unknown parameter', log)
+
+    def test_meshes_may_be_beside_the_description(self):
+        folder = self.folder + '/robot'  # not the working directory of nodes, ROS_HOME
+        os.makedirs(folder)
+        os.symlink(SOURCE + '/config/demo/meshes', folder + '/meshes')
+        with open(ARM) as arm, open(folder + '/arm.urdf', 'w') as out:
+            out.write(arm.read().replace('package://sdf_ccd/config/demo/', ''))
+        frame, _, log = self.launch('urdf:=arm.urdf', cwd=folder)
+        self.assertEqual(frame, 'base', log)
+        self.assertIn(' closed)', log)  # a mesh, in the plan
+        self.assertNotIn('failed', log)
 
     def test_without_one_it_takes_the_robots(self):
         with open(ARM) as arm:

@@ -2,6 +2,8 @@
 
 #include <pthread.h>
 
+#include <filesystem>
+
 #include <ros/package.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -117,7 +119,8 @@ void CollisionMonitor::setUp() {
   reportIdle("reading the robot description");
   waitForParameters();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Ignored, as it is no parameter: %s", name.c_str());
-  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, "", parameters_.allow_http));
+  const std::string directory = std::filesystem::path(parameters_.urdf_file).parent_path().string();
+  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, directory, parameters_.allow_http));
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   buildFields();

@@ -163,6 +163,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
 
   parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
   parameters.srdf_parameter = reader.text("srdf_parameter", parameters.urdf_parameter + "_semantic");
+  parameters.urdf_file = reader.text("urdf_file", "");
+  if (!parameters.urdf_file.empty() && parameters.urdf_file[0] != '/')
+    reader.fail("urdf_file", "the absolute path of a file");
   parameters.fixed_frame = withoutLeadingSlash(reader.name("fixed_frame", ""));
   parameters.tf_prefix = withoutLeadingSlash(reader.name("tf_prefix", ""));
   parameters.allow_http = reader.flag("allow_http", false);

@@ -54,6 +54,7 @@ struct MonitorParameters {
   std::string srdf;         ///< text of its semantic description, empty if there is none
   std::string urdf_source;  ///< origin of those texts, for error messages
   std::string srdf_source;
+  std::string urdf_file;    ///< absolute; meshes with relative names are beside it. Empty: in the working directory
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
   bool allow_http = false;  ///< whether meshes may be downloaded
