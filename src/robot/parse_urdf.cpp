@@ -18,6 +18,7 @@
 #include "joint_kind.h"
 #include "misplaced_elements.h"
 #include "unexpanded_macros.h"
+#include "xml_error.h"
 
 namespace sdf_ccd {
 namespace {
@@ -56,9 +57,7 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
   requireXmlSize(xml);
   const std::string text = soundText(xml);
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw std::runtime_error("line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorName());
-  }
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error(xmlError(document));
   if (const std::string macros = unexpandedMacros(document, "URDF"); !macros.empty()) warnings.push_back(macros);
   if (tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
     const std::vector<std::string> misplaced = misplacedElements(*robot);

@@ -8,6 +8,7 @@
 #include "empty_visuals.h"
 #include "misplaced_elements.h"
 #include "parse_urdf.h"
+#include "xml_error.h"
 
 namespace sdf_ccd {
 namespace {
@@ -33,8 +34,7 @@ std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model
   tinyxml2::XMLDocument document;
   const std::string text = soundText(xml);  // as the model was read from
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw std::runtime_error("the URDF cannot be parsed: line " + std::to_string(document.ErrorLineNum()) + ": " +
-                             document.ErrorName());
+    throw std::runtime_error("the URDF cannot be parsed: " + xmlError(document));
   }
   std::map<std::string, std::string> reasons;
   XMLElement* robot = document.FirstChildElement("robot");

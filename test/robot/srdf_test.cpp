@@ -35,6 +35,7 @@ TEST(Srdf, ReadsPairsWithTheirReasons) {
 
 TEST(Srdf, MalformedTextGivesLineAndReason) {
   EXPECT_NE(failure("<robot>\n<group>\n</robot>").find("line"), std::string::npos);
+  EXPECT_NE(failure("<robot>\n<group>\n</robot>").find("a tag does not match"), std::string::npos);
   EXPECT_NE(failure("").find("line"), std::string::npos);
   EXPECT_NE(failure("<!-- nothing -->").find("no element"), std::string::npos);
   EXPECT_NE(failure("\n<model/>").find("line 2: the root element is <model>"), std::string::npos);
@@ -56,6 +57,11 @@ TEST(Srdf, TextThatIsNoneOrIsNotExpandedIsTold) {
   EXPECT_TRUE(parseSrdf("<robot name='r'><group name='all'/></robot>").warnings.empty());
   EXPECT_EQ(parseSrdf("<robot name='r'><link name='a'/></robot>").warnings,
             std::vector<std::string>{"the SRDF is a URDF: it has links, and nothing that is read from an SRDF"});
+  EXPECT_EQ(
+      parseSrdf("<robot name='r'><group name='arm'>\n<disable_collisions link1='a' link2='b'/></group></robot>")
+          .warnings,
+      std::vector<std::string>{"line 2 of the SRDF: disable_collisions is not read, as it is inside <group>: move "
+                               "it out of it"});
   EXPECT_EQ(parseSrdf("<robot name='r' xmlns:xacro='x'>\n<xacro:arm/><disable_collisions link1='${p}a' link2='b'/>"
                       "</robot>")
                 .warnings,
