@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <functional>
 
 #include <tbb/global_control.h>
 
@@ -26,6 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kSecondsPerRun = 2.0;   // of a system; slower ones run only every n-th cycle
+constexpr double kWarmUp = 0.02;         // before each run: the system before it has filled the caches [s]
 constexpr int kTruthPoses = 10;          // at which FCL checks a verdict within a cycle
 constexpr std::size_t kColdCycles = 40;  // of a system
 constexpr std::uint64_t kSeed = 1;
@@ -131,6 +133,12 @@ std::size_t strideFor(MonitorSystem& system, const Waypoints& waypoints) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(seconds / kSecondsPerRun));
 }
 
+/// Runs cycles that are not timed, in turn from the first.
+void warmUp(const std::function<void(std::size_t)>& cycle, std::size_t cycles) {
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i == 0 || secondsSince(start) < kWarmUp; ++i) cycle(i % cycles);
+}
+
 /// A scene, built once for motions at several rates.
 struct Built {
   std::string name;
@@ -228,15 +236,19 @@ void study(const Built& built, double rate, const std::string& name, const Study
   for (std::size_t k = 0; k < systems.size(); ++k)
     times.emplace_back(waypoints.cycles(), 1);  // the monitor skips pairs by earlier cycles, so it must run all of them
   for (const auto& peer : peers) times.emplace_back(waypoints.cycles(), strideFor(*peer, waypoints));
+  const auto take = [&](std::size_t k, std::size_t i) { systems[k].take(waypoints.X_WB[i], waypoints.X_WB[i + 1]); };
+  const auto check = [&](std::size_t k, std::size_t i) { peers[k]->check(waypoints.X_WB[i], waypoints.X_WB[i + 1]); };
   for (int run = 0; run < options.measure.runs; ++run) {
     for (std::size_t k = 0; k < systems.size(); ++k) {
       systems[k].reset();
-      times[k].run([&](std::size_t i) { systems[k].take(waypoints.X_WB[i], waypoints.X_WB[i + 1]); },
-                   [&](std::size_t) { systems[k].run(); });
+      warmUp([&](std::size_t i) { take(k, i), systems[k].run(); }, waypoints.cycles());
+      systems[k].reset();
+      times[k].run([&](std::size_t i) { take(k, i); }, [&](std::size_t) { systems[k].run(); });
     }
-    for (std::size_t k = 0; k < peers.size(); ++k)
-      times[systems.size() + k].run([](std::size_t) {},
-                                    [&](std::size_t i) { peers[k]->check(waypoints.X_WB[i], waypoints.X_WB[i + 1]); });
+    for (std::size_t k = 0; k < peers.size(); ++k) {
+      warmUp([&](std::size_t i) { check(k, i); }, waypoints.cycles());
+      times[systems.size() + k].run([](std::size_t) {}, [&](std::size_t i) { check(k, i); });
+    }
   }
   for (std::size_t k = 0; k < times.size(); ++k) {
     const std::string system = k < systems.size() ? systems[k].name() : peers[k - systems.size()]->name();
