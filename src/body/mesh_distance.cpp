@@ -28,7 +28,7 @@ MeshDistance::MeshDistance(const GeometryDescription& geometry) : MeshDistance(o
   if (!warning_.empty()) warning_ = geometry.source + ": " + warning_;
 }
 
-MeshDistance::MeshDistance(OrientedMesh oriented)
+MeshDistance::MeshDistance(const OrientedMesh& oriented)
     : surface_(oriented.mesh),
       is_sign_trusted_(oriented.quality.sign_trusted),
       warning_(warningOf(oriented.quality)),

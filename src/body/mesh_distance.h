@@ -28,7 +28,7 @@ class MeshDistance {
   FieldSample sample(const Vector3d& p_G) const;
 
  private:
-  explicit MeshDistance(OrientedMesh oriented);
+  explicit MeshDistance(const OrientedMesh& oriented);
 
   SignedSurface surface_;
   bool is_sign_trusted_;
