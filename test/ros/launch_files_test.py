@@ -29,7 +29,7 @@ class LaunchFiles(unittest.TestCase):
         rospy.init_node('launch_files_test')
         cls.config = cls.folder + '/config.yaml'
         with open(cls.config, 'w') as config:
-            config.write('field: {cells: 16}\nshell: {spacing: 0.02}\ncache: false\n')
+            config.write('field: {cells: 16}\nshell: {spacing: 0.02}\ncache: false\nurdf_file: ""\n')  # as in ours
 
     @classmethod
     def tearDownClass(cls):
