@@ -213,7 +213,7 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   const auto nearest = surfaceDistance(a, b, X_AB, range + error, pairs_[i].witness, memory_);
   if (!nearest) return false;
   found.distance = nearest->distance;
-  found.error = error;
+  found.error = error + nearest->slack;
   found.p_A_W = X_WA * nearest->p_A;
   found.p_B_W = X_WA * nearest->q_A;
   const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);

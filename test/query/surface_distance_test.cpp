@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "cancel_moments.h"
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/geometry/primitive.h"
 
 namespace sdf_ccd {
 namespace {
@@ -125,6 +127,29 @@ TEST(SurfaceDistance, SlabsHoldFarFromTheOrigin) {
     }
   }
   EXPECT_GT(found, 150);
+}
+
+/// The end discs of two coaxial cylinders, as of wheels on one axle: all pairs of their triangles are as far apart.
+TEST(SurfaceDistance, FacesThatLieOppositeTakeNoLongerThanOthers) {
+  const BoxTree wheel = treeOf(tessellate(Cylinder{0.3, 0.05}, 2e-6), 0.0);
+  SeparationMemory memory;
+  for (const double tilt : {0.0, 1e-9, 1e-6}) {
+    for (const double turn : {0.0, 0.3}) {
+      Isometry3d X_AB = Isometry3d::Identity();
+      X_AB.translation() = Vector3d(0, 0, 0.2);
+      X_AB.rotate(Eigen::AngleAxisd(tilt, Vector3d::UnitX()) * Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+      SeparationWitness witness;
+      std::optional<SurfaceDistance> found;
+      const double seconds =
+          test::secondsOf([&] { found = surfaceDistance(wheel, wheel, X_AB, 1.0, witness, memory); });
+      ASSERT_TRUE(found);
+      const double truth = 0.2 - 0.05 - 0.05 * std::cos(tilt) - 0.3 * std::sin(tilt);
+      EXPECT_LE(found->slack, 5e-5);
+      EXPECT_GE(found->distance, truth - 1e-9);
+      EXPECT_LE(found->distance - found->slack, truth + 2.1e-6 * tilt + 1e-9);
+      EXPECT_LT(seconds, 0.005 * test::slowness());
+    }
+  }
 }
 
 }  // namespace

@@ -11,11 +11,20 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr int kManyTests = 1000;  // of pairs of triangles, after which SurfaceDistance::slack is used
+
 class DistanceQuery {
  public:
+  /// @param slack  for many tests: more than the bounds of boxes lose by rounding.
   DistanceQuery(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB, double max_distance, double rounding,
-                SeparationMemory& memory)
-      : a_(a), b_(b), X_AB_(X_AB), best_(max_distance), boxes_(a, b, {X_AB, X_AB}, rounding), memory_(memory) {}
+                double slack, SeparationMemory& memory)
+      : a_(a),
+        b_(b),
+        X_AB_(X_AB),
+        best_(max_distance),
+        slack_(slack),
+        boxes_(a, b, {X_AB, X_AB}, rounding),
+        memory_(memory) {}
 
   std::optional<SurfaceDistance> run(SeparationWitness& witness) {
     if (witness.near_a >= 0) test(witness.near_a, witness.near_b, witness);
@@ -25,13 +34,20 @@ class DistanceQuery {
       cancel_.check();
       const SeparationMemory::Boxes next = memory_.stack.back();
       memory_.stack.pop_back();
-      if (next.gap < best_) descend(next, witness);
+      if (next.gap < limit()) descend(next, witness);
     }
+    if (found_ && isLong()) found_->slack = slack_;
     return found_;
   }
 
  private:
+  bool isLong() const { return tests_ > kManyTests; }
+
+  /// Boxes that are farther apart are not searched [m].
+  double limit() const { return isLong() ? std::max(0.0, best_ - slack_) : best_; }
+
   void test(int i, int k, SeparationWitness& witness) {
+    ++tests_;
     const RoundedTriangle &t_a = a_.triangle(i), &t_b = b_.triangle(k);
     Corners in_a = t_b.corners;
     for (Vector3d& p : in_a) p = X_AB_ * p;
@@ -79,7 +95,7 @@ class DistanceQuery {
     const bool into_a = !end_a && (end_b || a_.node(at.a.node).reach[at.a.lane] >= b_.node(at.b.node).reach[at.b.lane]);
     NearBoxes found;
     const BoxTree::Node& node = into_a ? a_.node(below_a) : b_.node(below_b);
-    const float cut = cutOfBoxes(std::min(best_, 1e29));
+    const float cut = cutOfBoxes(std::min(limit(), 1e29));
     into_a ? boxes_.gapsInA(node, at.b, cut, found) : boxes_.gapsInB(node, at.a, cut, found);
     const std::size_t first = memory_.stack.size();
     for (std::uint32_t near = found.near; near != 0; near &= near - 1) {
@@ -94,7 +110,8 @@ class DistanceQuery {
 
   const BoxTree &a_, &b_;
   Isometry3d X_AB_;
-  double best_;
+  double best_, slack_;
+  int tests_ = 0;
   MovingBoxes boxes_;
   SeparationMemory& memory_;
   std::optional<SurfaceDistance> found_;
@@ -106,11 +123,13 @@ class DistanceQuery {
 std::optional<SurfaceDistance> surfaceDistance(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
                                                double max_distance, SeparationWitness& witness,
                                                SeparationMemory& memory) {
-  const double apart = (X_AB * b.origin() - a.origin()).norm() - a.ball().radius - b.ball().radius;
+  const double between = (X_AB * b.origin() - a.origin()).norm();
+  const double radii = a.ball().radius + b.ball().radius, apart = between - radii;
   const double rounding = triangleRounding(a, b, {X_AB, X_AB});
-  const double of_balls = kBoxRounding * (a.ball().radius + b.ball().radius + std::abs(apart)) + rounding;
+  const double of_balls = kBoxRounding * (radii + std::abs(apart)) + rounding;
   if (apart > max_distance + of_balls) return std::nullopt;
-  return DistanceQuery(a, b, X_AB, max_distance, rounding, memory).run(witness);
+  const double slack = 4.0 * (kBoxRounding * (radii + between) + rounding);
+  return DistanceQuery(a, b, X_AB, max_distance, rounding, slack, memory).run(witness);
 }
 
 std::optional<double> slabBetween(const BoxTree& a, const BoxTree& b, const Isometry3d& X_AB,
