@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "common/number_text.h"
 #include "common/text_limits.h"
 #include "scene_shape.h"
 #include "storage/regular_file.h"
@@ -30,6 +31,7 @@ ContactOptions readContact(YamlMap contact) {
 }
 
 constexpr std::size_t kMaxBodies = 5000;  // all their pairs are stored, and tested in every step
+constexpr double kFarthestBody = 1e9;     // from the origin [m]
 
 /// A copy of a body, as given by `repeat`.
 struct Copy {
@@ -125,6 +127,11 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
     if (!names.insert(body.name).second) entry.fail(entry.node("name"), "there are two bodies `" + body.name + "`");
     state.X_OB.linear() = (rotation * copy.rotation).toRotationMatrix();
     state.X_OB.translation() = xyz + copy.offset + state.X_OB.linear() * shape.center;
+    if (const double distance = state.X_OB.translation().norm(); !(distance <= kFarthestBody)) {
+      entry.fail(entry.node("xyz"), "`xyz`: body `" + body.name + "` is " + numberText(distance) +
+                                        " m from the scene's origin, at most " + numberText(kFarthestBody) +
+                                        " m can be computed");
+    }
     state.spin_B = state.X_OB.linear().transpose() * spin;
     setup.world.bodies.push_back(body);
     setup.states.push_back(state);

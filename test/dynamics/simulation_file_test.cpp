@@ -106,7 +106,8 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
         "more than 5000 bodies");
   holds(reasonOf("velocity: [0.5, 0, -1]", "velocity: [0, 0, -1.0e+160]"),
         "body `box`, step 0: its energy or momentum");
-  holds(reasonOf("0.0625], rpy", "1.0e+12], rpy"), "body `ground`, step 0: it lies 1e+12 m from the scene's origin");
+  holds(reasonOf("0.0625], rpy", "1.0e+12], rpy"),
+        "line 10, body: `xyz`: body `box` is 1e+12 m from the scene's origin");
   for (const char* name : {"\"\"", "\"a,b\"", "\"a\\nb\"", "/a", "world"}) {
     holds(reasonOf("name: box", std::string("name: ") + name), "line 10, body: `name`");
   }
