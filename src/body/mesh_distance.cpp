@@ -1,6 +1,6 @@
 #include "body/mesh_distance.h"
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -29,11 +29,17 @@ MeshDistance::MeshDistance(const GeometryDescription& geometry) : MeshDistance(o
 }
 
 MeshDistance::MeshDistance(const OrientedMesh& oriented)
-    : surface_(oriented.mesh),
+    : MeshDistance(oriented, ClosedSolid(std::make_shared<const Solid>(oriented.mesh))) {}
+
+MeshDistance::MeshDistance(const OrientedMesh& oriented, const ClosedSolid& closed)
+    : surface_(closed.solid()),
       is_sign_trusted_(oriented.quality.sign_trusted),
       warning_(warningOf(oriented.quality)),
-      box_(boundingBox(oriented.mesh)),
-      error_(kBoundaryError * box_.sizes().maxCoeff()) {}
+      box_(boundingBox(surface_.solid().boundary())),
+      error_(kBoundaryError * box_.sizes().maxCoeff() + closed.moved()) {
+  const Openings& openings = closed.openings();
+  if (!openings.reach.empty()) caps_ = std::make_shared<const OpeningCaps>(openings.caps, openings.reach);
+}
 
 double MeshDistance::lowerBound(const Vector3d& p_G) const {
   const double distance = box_.exteriorDistance(p_G);
@@ -42,14 +48,17 @@ double MeshDistance::lowerBound(const Vector3d& p_G) const {
 
 FieldSample MeshDistance::sample(const Vector3d& p_G) const {
   const TriangleTree::ClosestPoint closest = surface_.tree().closestPoint(p_G);
-  const bool is_certainly_outside = !box_.contains(p_G) || (!is_sign_trusted_ && surface_.tree().seesOutside(p_G));
-  const double sign = !is_certainly_outside && surface_.inside(p_G) ? -1.0 : 1.0;
+  const bool is_outside_box = !box_.contains(p_G);
+  const double sign = !is_outside_box && surface_.inside(p_G) ? -1.0 : 1.0;
   FieldSample sample;
   sample.value = sign * closest.distance;
-  sample.error = error_ + (is_sign_trusted_ || is_certainly_outside ? 0.0 : 2.0 * closest.distance);
+  sample.error = error_;
   sample.gradient = closest.distance > 0.0
                         ? Vector3d(sign / closest.distance * (p_G - closest.point))
                         : Vector3d(areaNormal(surface_.tree().triangle(closest.triangle).corners()).stableNormalized());
+  if (caps_) sample = overMesh(sample, *caps_, p_G);
+  const bool is_certain = is_sign_trusted_ || is_outside_box || (sign > 0.0 && surface_.tree().seesOutside(p_G));
+  if (!is_certain) sample.error = std::max(sample.error, error_ + 2.0 * closest.distance);
   return sample;
 }
 

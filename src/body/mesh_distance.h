@@ -1,8 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
+#include "field/opening_caps.h"
 #include "field/signed_surface.h"
+#include "geometry/closed_solid.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/model/scene_description.h"
@@ -22,15 +25,18 @@ class MeshDistance {
   /// Lower bound of the distance [m], by the box around the mesh; −infinity within it.
   double lowerBound(const Vector3d& p_G) const;
 
-  /// Guarantee: |s − value| ≤ error for the distance s from the boundary of the mesh's solid; for either sign of s, if
-  /// the sign of the mesh is not trusted (MeshQuality::sign_trusted) and the point has no free line of sight to the
-  /// outside.
+  /// Guarantee: |s − value| ≤ error for the distance s from the mesh, as DistanceField::meshSample() says: the value is
+  /// that of the solid that caps close, and the error large where it counts as inside that, or where a cap may be the
+  /// nearest surface. If the sign of the mesh is not trusted (MeshQuality::sign_trusted) it holds for either sign of s,
+  /// unless the point has a free line of sight to the outside.
   FieldSample sample(const Vector3d& p_G) const;
 
  private:
   explicit MeshDistance(const OrientedMesh& oriented);
+  MeshDistance(const OrientedMesh& oriented, const ClosedSolid& closed);
 
-  SignedSurface surface_;
+  SignedSurface surface_;                    // closed by the caps
+  std::shared_ptr<const OpeningCaps> caps_;  // null if there are none
   bool is_sign_trusted_;
   std::string warning_;
   AlignedBox3d box_;

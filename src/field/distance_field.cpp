@@ -92,19 +92,8 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
 }
 
 FieldSample DistanceField::meshSample(const Vector3d& p_F) const {
-  FieldSample known = sample(p_F);
-  if (!openings_) return known;
-  // The mesh is at least as far as the closed surface. It is at most as far, too, unless a cap may contain the nearest
-  // point: then the upper bound is the length of the path through the nearest cap.
-  const double near = std::abs(known.value) + known.error;
-  const bool by_cap = openings_->isWithin(p_F, near);
-  const double far = by_cap ? std::max(near, openings_->meshDistanceBound(p_F)) : near;
-  if (known.value < 0.0 || (by_cap && known.value < known.error)) {
-    known.error = far + std::abs(known.value);  // the point may be on either side
-  } else if (by_cap) {
-    known.error = far - known.value;
-  }
-  return known;
+  const FieldSample known = sample(p_F);
+  return openings_ ? overMesh(known, *openings_, p_F) : known;
 }
 
 double DistanceField::openingDistance(const Vector3d& p_F) const {

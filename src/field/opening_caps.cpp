@@ -1,5 +1,6 @@
 #include "field/opening_caps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,20 @@ OpeningCaps::OpeningCaps(TriangleMesh mesh, std::vector<double> reach)
 double OpeningCaps::meshDistanceBound(const Vector3d& p_F) const {
   const TriangleTree::ClosestPoint nearest = tree_.closestPoint(p_F);
   return nearest.distance + reach_[static_cast<std::size_t>(nearest.triangle)];
+}
+
+FieldSample overMesh(FieldSample known, const OpeningCaps& caps, const Vector3d& p_F) {
+  // The mesh is at least as far as the closed surface. It is at most as far, too, unless a cap may contain the nearest
+  // point: then the upper bound is the length of the path through the nearest cap.
+  const double near = std::abs(known.value) + known.error;
+  const bool by_cap = caps.isWithin(p_F, near);
+  const double far = by_cap ? std::max(near, caps.meshDistanceBound(p_F)) : near;
+  if (known.value < 0.0 || (by_cap && known.value < known.error)) {
+    known.error = far + std::abs(known.value);  // the point may be on either side
+  } else if (by_cap) {
+    known.error = far - known.value;
+  }
+  return known;
 }
 
 std::size_t OpeningCaps::bytes() const {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/trees/triangle_tree.h"
+#include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {
 
@@ -36,5 +37,8 @@ class OpeningCaps {
   std::vector<double> reach_;
   TriangleTree tree_;
 };
+
+/// Of a sample of the surface that caps close, one of the mesh alone: see DistanceField::meshSample().
+FieldSample overMesh(FieldSample of_closed, const OpeningCaps& caps, const Vector3d& p_F);
 
 }  // namespace sdf_ccd

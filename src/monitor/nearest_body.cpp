@@ -45,16 +45,22 @@ std::shared_ptr<MeshDistances> makeMeshDistances() {
   return std::make_shared<MeshDistances>();
 }
 
-/// One element of a body: a primitive, a mesh without a field, or a field.
+/// One element of a body: a primitive, a mesh without a field, a field, or a box that contains what is not known.
 class NearestBodySearch::Element {
  public:
+  Element(const Isometry3d& X_BG, const AlignedBox3d& box) : X_GB_(X_BG.inverse()), source_(box) {}
   Element(const Isometry3d& X_BG, DistanceField field) : X_GB_(X_BG.inverse()), source_(std::move(field)) {}
   Element(const Isometry3d& X_BG, std::shared_ptr<const MeshDistance> mesh)
       : X_GB_(X_BG.inverse()), source_(std::move(mesh)) {}
 
   Vector3d toElement(const Vector3d& p_B) const { return X_GB_ * p_B; }
 
+  /// Whether nothing but lowerBound() is known.
+  bool isUnknown() const { return std::holds_alternative<AlignedBox3d>(source_); }
+
   double lowerBound(const Vector3d& p_G) const {
+    if (const auto* box = std::get_if<AlignedBox3d>(&source_))
+      return signedDistance(Box{0.5 * box->sizes()}, p_G - box->center());
     if (const auto* field = std::get_if<DistanceField>(&source_)) return field->lowerBound(p_G);
     return std::get<MeshDistancePointer>(source_)->lowerBound(p_G);
   }
@@ -71,7 +77,7 @@ class NearestBodySearch::Element {
   using MeshDistancePointer = std::shared_ptr<const MeshDistance>;
 
   Isometry3d X_GB_;
-  std::variant<DistanceField, MeshDistancePointer> source_;
+  std::variant<DistanceField, MeshDistancePointer, AlignedBox3d> source_;
 };
 
 NearestBodySearch::NearestBodySearch(std::shared_ptr<const Scene> scene,
@@ -99,16 +105,22 @@ std::string NearestBodySearch::prepare(std::size_t body) {
       elements.emplace_back(geometry.X_BG, DistanceField(*primitive));
       continue;
     }
-    const std::size_t triangles = std::get<MeshPointer>(geometry.shape)->triangles.size();
-    if (triangles > kMaxTriangles)
-      return fmt::format("ignored: {} has {} triangles and no field", geometry.source, triangles);
-    try {
-      elements.emplace_back(geometry.X_BG, meshes_->find(geometry));
-    } catch (const std::exception& error) {
-      return fmt::format("ignored: {}: {}", geometry.source, error.what());
+    const TriangleMesh& mesh = *std::get<MeshPointer>(geometry.shape);
+    std::string doubt;
+    if (mesh.triangles.size() > kMaxTriangles) {
+      doubt = fmt::format("ignored but for its box, which errors allow for: {} has {} triangles and no field",
+                          geometry.source, mesh.triangles.size());
+      elements.emplace_back(geometry.X_BG, boundingBox(mesh));
+    } else {
+      try {
+        const std::shared_ptr<const MeshDistance> distance = meshes_->find(geometry);
+        elements.emplace_back(geometry.X_BG, distance);
+        doubt = distance->warning();
+      } catch (const std::exception& error) {
+        return fmt::format("ignored: {}: {}", geometry.source, error.what());
+      }
     }
-    if (const std::string& doubt = meshes_->find(geometry)->warning(); !doubt.empty())
-      doubts += (doubts.empty() ? "" : "; ") + doubt;
+    if (!doubt.empty()) doubts += (doubts.empty() ? "" : "; ") + doubt;
   }
   elements_[body] = std::move(elements);
   return doubts;
@@ -124,7 +136,9 @@ NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, cons
     const Vector3d p_B = R_WB.transpose() * (p_W - X_WB[b].translation());
     for (const Element& element : elements_[b]) {
       const Vector3d p_G = element.toElement(p_B);
-      if (element.lowerBound(p_G) > nearest.distance) continue;
+      const double at_least = element.lowerBound(p_G);
+      if (element.isUnknown()) low = std::min(low, at_least);
+      if (element.isUnknown() || at_least > nearest.distance) continue;
       const FieldSample sample = element.sample(p_G);
       low = std::min(low, sample.value - sample.error);
       if (sample.value >= nearest.distance) continue;

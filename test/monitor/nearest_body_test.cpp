@@ -69,8 +69,14 @@ TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {
     X_WB[0] = Isometry3d::Identity();
     const NearestBody middle = search(X_WB, {0, 0, -0.05});
     EXPECT_EQ(middle.body, 0);
-    EXPECT_GE(middle.distance + middle.error, 0.2);  // seen through the opening, it is outside
-    if (has_field) EXPECT_LE(middle.distance - middle.error, -0.2);
+    EXPECT_LE(middle.distance, 0.0);
+    EXPECT_LE(middle.distance - middle.error, -0.2);
+    EXPECT_GE(middle.distance + middle.error, 0.2);
+    const NearestBody below_lid = search(X_WB, {0, 0, 0.24}), above_lid = search(X_WB, {0, 0, 0.26});
+    EXPECT_NEAR(below_lid.distance, -0.01, 1e-3);
+    EXPECT_GE(below_lid.distance + below_lid.error, 0.25);
+    EXPECT_NEAR(above_lid.distance, 0.01, 1e-3);
+    EXPECT_GE(above_lid.distance + above_lid.error, 0.25);
     // Above the opening's centre, the nearest part of the mesh is its rim.
     const Vector3d above(0, 0, 0.3);
     const NearestBody over = search(X_WB, above);
@@ -123,11 +129,17 @@ TEST(NearestBody, LeavesOutWhatItCannotPrepare) {
   lost.failure = "its file is missing";
   const Search search({body("many", meshShape(many), true), body("broken", meshShape(broken), true), lost,
                        body("empty", Primitive(Sphere{0.1}), true)});
-  EXPECT_EQ(search.notes[0], "ignored: many.stl has 500001 triangles and no field");
+  EXPECT_EQ(search.notes[0],
+            "ignored but for its box, which errors allow for: many.stl has 500001 triangles and no field");
   EXPECT_EQ(search.notes[1].find("ignored: "), 0u) << search.notes[1];
   EXPECT_EQ(search.notes[2], "ignored: its file is missing");
   const std::vector<Isometry3d> X_WB(4, translation({1, 0, 0}));
-  EXPECT_EQ(search(X_WB, {0, 0, 0}).body, 3);
+  const NearestBody before = search(X_WB, {0, 0, 0}), at_corner = search(X_WB, {1.1, 0.1, 0.1});
+  EXPECT_EQ(before.body, 3);
+  EXPECT_NEAR(before.distance, 0.9, 1e-9);
+  EXPECT_LT(before.error, 1e-9);
+  EXPECT_NEAR(at_corner.distance, 0.1 * (std::sqrt(3.0) - 1.0), 1e-9);
+  EXPECT_NEAR(at_corner.error, at_corner.distance, 1e-9);  // the box's corner
 }
 
 /// The next version of a world has the same meshes, another world may have others in their place.

@@ -142,7 +142,9 @@ void Queries::answerWith(const Work& work, Response& response) {
   const auto start = std::chrono::steady_clock::now();
   const CancelPoint caller;
   const auto fail = [&](const std::string& why) {
+    const std::uint64_t version = response.scene_version;
     response = {};
+    response.scene_version = version;
     response.message = why;
   };
   try {
