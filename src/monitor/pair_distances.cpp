@@ -58,6 +58,7 @@ void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_no
   for (PairDistance& near : near_) {
     const int now = pairs_now[near.pair];
     pairs_[now] = std::move(before.pairs_[near.pair]);
+    pairs_[now].surfaces = {};
     near.pair = now;
     near.body_a = scene_->pairs[now].body_a;
     near.body_b = scene_->pairs[now].body_b;
@@ -199,6 +200,22 @@ bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometr
   return true;
 }
 
+/// Measures two surfaces anew unless they are where they were: most links of a robot at rest.
+/// @return how far B has moved relative to A since the measurement, at most [m].
+double PairDistances::measureSurfaces(std::size_t i, const Isometry3d& X_AB, double limit) {
+  constexpr double kStill = 1e-9;  // [m]
+  const Body &body_a = scene_->bodies[scene_->pairs[i].body_a], &body_b = scene_->bodies[scene_->pairs[i].body_b];
+  SurfaceMeasurement& last = pairs_[i].surfaces;
+  if (last.is_known && limit <= last.limit) {
+    const double moved = maxDisplacement(last.X_AB, X_AB, body_b.ball);
+    if (moved <= kStill) return moved;
+  }
+  const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
+  last = {true, X_AB, limit, surfaceDistance(a, b, X_AB, limit, pairs_[i].witness, memory_), {}};
+  if (last.nearest) last.slab = slabBetween(a, b, X_AB, *last.nearest);
+  return 0.0;
+}
+
 bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                                       PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
@@ -210,16 +227,17 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   const double deviation = verdictBound(*scene_, pair).total();
   const double error =
       deviation + kTriangleError * (a.ball().radius + b.ball().radius) + triangleRounding(a, b, {X_AB, X_AB});
-  const auto nearest = surfaceDistance(a, b, X_AB, range + error, pairs_[i].witness, memory_);
-  if (!nearest) return false;
+  const double moved = measureSurfaces(i, X_AB, range + error);
+  const std::optional<SurfaceDistance>& nearest = pairs_[i].surfaces.nearest;
+  const std::optional<double>& slab = pairs_[i].surfaces.slab;
+  if (!nearest || nearest->distance > range + error) return false;
   found.distance = nearest->distance;
-  found.error = error + nearest->slack;
+  found.error = error + nearest->slack + moved;
   found.p_A_W = X_WA * nearest->p_A;
   found.p_B_W = X_WA * nearest->q_A;
   const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);
   if (nearest->distance > 0.0) found.normal_W = displacement / nearest->distance;
-  const auto slab = slabBetween(a, b, X_AB, *nearest);
-  if (slab && *slab > deviation) found.slab = ClosingGap{*slab - deviation, 0.0, 0.0};
+  if (slab && *slab - moved > deviation) found.slab = ClosingGap{*slab - moved - deviation, 0.0, 0.0};
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "query/surfaces/separation.h"
+#include "query/surfaces/surface_distance.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {
@@ -74,12 +75,22 @@ class PairDistances {
  private:
   static constexpr double kNotMeasured = -1.0;  // below any range
 
+  /// The last measurement of two surfaces of triangles, for bodies that do not move relative to each other.
+  struct SurfaceMeasurement {
+    bool is_known = false;
+    Isometry3d X_AB = Isometry3d::Identity();
+    double limit = 0.0;                      // farther surfaces were not measured [m]
+    std::optional<SurfaceDistance> nearest;  // none: farther than the limit
+    std::optional<double> slab;
+  };
+
   struct Pair {
     double known_within = kNotMeasured;  // range of the last measurement [m]; kNotMeasured: not measured
     bool is_known = false;
     double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
     Isometry3d X_FP = Isometry3d::Identity();
     SeparationWitness witness;
+    SurfaceMeasurement surfaces;
     PairDistance last;  // valid if is_near
     bool is_near = false;
   };
@@ -90,6 +101,7 @@ class PairDistances {
   bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
   bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
                          PairDistance& found);
+  double measureSurfaces(std::size_t pair, const Isometry3d& X_AB, double limit);
   bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
   bool nearestOfPlane(std::size_t pair, bool plane_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP, double range,
                       PairDistance& found);

@@ -162,6 +162,27 @@ TEST_F(PairDistancesTest, SpeedsAreThoseAtWhichTheyClose) {
   EXPECT_EQ(over({0.25, 0.15, 0.0, 0.0}), 0.4);
 }
 
+/// Steps below those at which a pair is measured again must not add up, also if both bodies move together.
+TEST_F(PairDistancesTest, BodiesThatHardlyMoveAreTrueStill) {
+  constexpr double kStep = 4e-10;
+  std::vector<Isometry3d> X_WB(4, Isometry3d::Identity());
+  X_WB[2] = test::translation({5, 5, 5});
+  X_WB[3] = test::translation({0, 0, -5});
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<Isometry3d> before = X_WB;
+    const Isometry3d X_all = test::pose({0.01 * k, -0.02 * k, 0.03}, 0.05 * k, {0, 0, 1});
+    X_WB[1] = X_all;
+    X_WB[0] = X_all * test::pose({kBox.x() + kBlock.x() + 0.1 - kStep * k, 0.01, 0.02}, 0.3, {1, 2, 3});
+    const std::vector<PairDistance>& near = cycle(k == 0 ? X_WB : before, X_WB);
+    ASSERT_EQ(near.size(), 1u);
+    const double truth = boxDistance(kBox, X_WB[0], kBlock, X_WB[1]);
+    ASSERT_LE(std::abs(near[0].distance - truth), near[0].error);
+    ASSERT_LE(std::abs(near[0].distance - truth), 1.1e-9);
+    ASSERT_NEAR((near[0].p_A_W - near[0].p_B_W).norm(), truth, 2e-9);
+    ASSERT_LT((X_WB[0].inverse() * near[0].p_A_W).cwiseAbs().maxCoeff(), kBox.maxCoeff() + 1e-9);
+  }
+}
+
 TEST_F(PairDistancesTest, WhatTouchesHasNone) {
   const std::vector<Isometry3d> touch = {test::translation({0.14, 0, 0.5}), test::translation({0, 0, 0.5}),
                                          test::translation({-2, 0, 1.5}), Isometry3d::Identity()};
