@@ -152,5 +152,25 @@ TEST(SurfaceDistance, FacesThatLieOppositeTakeNoLongerThanOthers) {
   }
 }
 
+/// Before anything is found the range is all that ends the search, and nothing within it may be left out: two wheels
+/// face each other at a small angle, and a single place is barely within range.
+TEST(SurfaceDistance, WhatIsBarelyWithinRangeIsFoundAmongManyThatAreNot) {
+  const BoxTree wheel = treeOf(tessellate(Cylinder{0.3, 0.05}, 2e-6), 0.0);
+  SeparationMemory memory;
+  for (const double tilt : {1e-8, 1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 1e-3}) {
+    for (const double beyond : {1e-8, 1e-7, 1e-6, 4e-6}) {
+      Isometry3d X_AB = Isometry3d::Identity();
+      X_AB.translation() = Vector3d(0, 0, 0.2);
+      X_AB.rotate(Eigen::AngleAxisd(tilt, Vector3d::UnitX()) * Eigen::AngleAxisd(0.3, Vector3d::UnitZ()));
+      const double truth = 0.2 - 0.05 - 0.05 * std::cos(tilt) - 0.3 * std::sin(tilt);
+      const double of_tessellation = 2.1e-6 * std::sin(tilt) + 1e-12;  // its radius is smaller by at most that
+      SeparationWitness witness;
+      const auto found = surfaceDistance(wheel, wheel, X_AB, truth + of_tessellation + beyond, witness, memory);
+      ASSERT_TRUE(found) << tilt << " " << beyond;
+      EXPECT_LE(found->distance, truth + of_tessellation + beyond);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sdf_ccd

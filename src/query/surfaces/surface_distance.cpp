@@ -36,12 +36,13 @@ class DistanceQuery {
       memory_.stack.pop_back();
       if (next.gap < limit()) descend(next, witness);
     }
-    if (found_ && isLong()) found_->slack = slack_;
+    if (isLong()) found_->slack = slack_;
     return found_;
   }
 
  private:
-  bool isLong() const { return tests_ > kManyTests; }
+  /// Until something is found, all that is within the maximum distance is searched.
+  bool isLong() const { return found_ && tests_ > kManyTests; }
 
   /// Boxes that are farther apart are not searched [m].
   double limit() const { return isLong() ? std::max(0.0, best_ - slack_) : best_; }
