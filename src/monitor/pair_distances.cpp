@@ -200,18 +200,17 @@ bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometr
   return true;
 }
 
-/// Measures two surfaces anew unless they are where they were: most links of a robot at rest.
+/// Measures two surfaces that may be within the limit, unless they are where they were: most links of a robot at rest.
 /// @return how far B has moved relative to A since the measurement, at most [m].
 double PairDistances::measureSurfaces(std::size_t i, const Isometry3d& X_AB, double limit) {
   constexpr double kStill = 1e-9;  // [m]
   const Body &body_a = scene_->bodies[scene_->pairs[i].body_a], &body_b = scene_->bodies[scene_->pairs[i].body_b];
   SurfaceMeasurement& last = pairs_[i].surfaces;
-  if (last.is_known && limit <= last.limit) {
-    const double moved = maxDisplacement(last.X_AB, X_AB, body_b.ball);
-    if (moved <= kStill) return moved;
-  }
+  const double moved = maxDisplacement(last.X_AB, X_AB, body_b.ball);
+  if (moved <= kStill && (last.nearest || limit + moved <= last.limit)) return moved;
   const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
-  last = {true, X_AB, limit, surfaceDistance(a, b, X_AB, limit, pairs_[i].witness, memory_), {}};
+  const double searched = limit + kStill;
+  last = {X_AB, searched, surfaceDistance(a, b, X_AB, searched, pairs_[i].witness, memory_), {}};
   if (last.nearest) last.slab = slabBetween(a, b, X_AB, *last.nearest);
   return 0.0;
 }
@@ -230,9 +229,10 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   const double moved = measureSurfaces(i, X_AB, range + error);
   const std::optional<SurfaceDistance>& nearest = pairs_[i].surfaces.nearest;
   const std::optional<double>& slab = pairs_[i].surfaces.slab;
-  if (!nearest || nearest->distance > range + error) return false;
-  found.distance = nearest->distance;
+  if (!nearest) return false;
   found.error = error + nearest->slack + moved;
+  if (nearest->distance > range + found.error) return false;
+  found.distance = nearest->distance;
   found.p_A_W = X_WA * nearest->p_A;
   found.p_B_W = X_WA * nearest->q_A;
   const Vector3d displacement = X_WA.linear() * (nearest->q_A - nearest->p_A);

@@ -77,9 +77,8 @@ class PairDistances {
 
   /// The last measurement of two surfaces of triangles, for bodies that do not move relative to each other.
   struct SurfaceMeasurement {
-    bool is_known = false;
     Isometry3d X_AB = Isometry3d::Identity();
-    double limit = 0.0;                      // farther surfaces were not measured [m]
+    double limit = kNotMeasured;             // farther surfaces were not measured [m]
     std::optional<SurfaceDistance> nearest;  // none: farther than the limit
     std::optional<double> slab;
   };
