@@ -14,7 +14,6 @@ constexpr double kSuzuki = 0.41449077179437573;                                 
 constexpr double kParts[] = {kSuzuki, kSuzuki, 1.0 - 4.0 * kSuzuki, kSuzuki, kSuzuki};  // of a substep
 constexpr double kAnglePerTime = 1.0;  // [rad], so that the shorter rotation between two poses is the true one
 constexpr double kMaxAngle = 1e4;      // [rad] per step
-constexpr double kMaxDistance = 1e9;   // [m]
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d S;

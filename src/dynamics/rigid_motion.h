@@ -6,6 +6,9 @@
 
 namespace sdf_ccd {
 
+/// Bodies may be no farther from the scene's origin than this, and move no farther in one step [m].
+constexpr double kMaxDistance = 1e9;
+
 /// Rotates a body without forces by the implicit midpoint rule with Cayley's rotation: energy and angular momentum (in
 /// O) are conserved, to rounding, at any spin. The rule's step is lengthened until each midpoint spin rotates the body
 /// by its own angle, so a constant spin (of a sphere, about a principal axis) is exact, and one near it nearly so.
@@ -32,8 +35,8 @@ bool endsAt(const StepMotion& motion, const std::vector<BodyState>& states);
 
 /// Moves all bodies for `duration` under no force. Reuses the memory of `motion`.
 /// @param velocities  per body: of its origin [m/s]; state.velocity is neither read nor changed.
-/// @throws SimulationError (with `step`) for a body whose state is not finite, farther than 1e9 m from the scene's
-/// origin, moves farther than that in the step, or rotates by more than 1e4 rad in it.
+/// @throws SimulationError (with `step`) for a body whose state is not finite, farther than kMaxDistance from the
+/// scene's origin, moves farther than that in the step, or rotates by more than 1e4 rad in it.
 void drift(const RigidWorld& world, const std::vector<Vector3d>& velocities, double duration, long step,
            std::vector<BodyState>& states, StepMotion& motion);
 

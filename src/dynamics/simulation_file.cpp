@@ -8,6 +8,7 @@
 
 #include "common/number_text.h"
 #include "common/text_limits.h"
+#include "rigid_motion.h"
 #include "scene_shape.h"
 #include "storage/regular_file.h"
 #include "yaml/load_yaml.h"
@@ -31,7 +32,6 @@ ContactOptions readContact(YamlMap contact) {
 }
 
 constexpr std::size_t kMaxBodies = 5000;  // all their pairs are stored, and tested in every step
-constexpr double kFarthestBody = 1e9;     // from the origin [m]
 
 /// A copy of a body, as given by `repeat`.
 struct Copy {
@@ -127,9 +127,9 @@ void readBody(YamlMap entry, const Shapes& shapes, std::set<std::string>& names,
     if (!names.insert(body.name).second) entry.fail(entry.node("name"), "there are two bodies `" + body.name + "`");
     state.X_OB.linear() = (rotation * copy.rotation).toRotationMatrix();
     state.X_OB.translation() = xyz + copy.offset + state.X_OB.linear() * shape.center;
-    if (const double distance = state.X_OB.translation().norm(); !(distance <= kFarthestBody)) {
+    if (const double distance = state.X_OB.translation().norm(); !(distance <= kMaxDistance)) {
       entry.fail(entry.node("xyz"), "`xyz`: body `" + body.name + "` is " + numberText(distance) +
-                                        " m from the scene's origin, at most " + numberText(kFarthestBody) +
+                                        " m from the scene's origin, at most " + numberText(kMaxDistance) +
                                         " m can be computed");
     }
     state.spin_B = state.X_OB.linear().transpose() * spin;

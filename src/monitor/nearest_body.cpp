@@ -22,14 +22,17 @@ using MeshPointer = std::shared_ptr<const TriangleMesh>;
 
 class MeshDistances {
  public:
+  /// Releases what was prepared of meshes that are gone.
+  void dropUnused() {
+    for (auto known = known_.begin(); known != known_.end();)
+      known = known->second.mesh.expired() ? known_.erase(known) : std::next(known);
+  }
+
   /// @throws std::invalid_argument as MeshDistance().
   std::shared_ptr<const MeshDistance> find(const GeometryDescription& geometry) {
     const MeshPointer& mesh = std::get<MeshPointer>(geometry.shape);
-    // A mesh that is gone may have left its address to another.
-    for (auto known = known_.begin(); known != known_.end();)
-      known = known->second.mesh.expired() ? known_.erase(known) : std::next(known);
     Known& known = known_[mesh.get()];
-    if (!known.distance) known = {mesh, std::make_shared<const MeshDistance>(geometry)};
+    if (known.mesh.lock() != mesh) known = {mesh, std::make_shared<const MeshDistance>(geometry)};
     return known.distance;
   }
 
@@ -86,7 +89,9 @@ NearestBodySearch::NearestBodySearch(std::shared_ptr<const Scene> scene,
     : scene_(std::move(scene)),
       description_(std::move(description)),
       meshes_(meshes ? std::move(meshes) : makeMeshDistances()),
-      elements_(scene_->bodies.size()) {}
+      elements_(scene_->bodies.size()) {
+  meshes_->dropUnused();
+}
 
 NearestBodySearch::~NearestBodySearch() = default;
 

@@ -16,7 +16,7 @@ constexpr double kShortestPeriod = 1e-6, kLongestPeriod = 1e6;  // limits set by
 void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters, MonitorLoop& loop,
               BagObserver& observer) {
   const ros::Duration period(std::clamp(1.0 / parameters.rate, kShortestPeriod, kLongestPeriod));
-  ros::Time::init();
+  ros::Time::init();  // lets others read the clock that setNow() sets
   CycleRequest request;
   request.max_points = parameters.max_points;
   request.refine = parameters.refine;
@@ -56,9 +56,10 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   motion.play([&](const RecordedTransforms& transforms) {
     runUntil(transforms.recorded);
     loop.history().add(transforms.message, transforms.is_static);
-    for (const geometry_msgs::TransformStamped& transform : transforms.message.transforms)
-      if (!transforms.is_static) last_stamp = std::max(last_stamp, transform.header.stamp);
     observer.onTransforms(transforms);
+    if (transforms.is_static) return;
+    for (const geometry_msgs::TransformStamped& transform : transforms.message.transforms)
+      last_stamp = std::max(last_stamp, transform.header.stamp);
   });
   runUntil(motion.end());
   now = motion.end();

@@ -116,12 +116,15 @@ class Queries::Piece {
  public:
   /// @param spent  time of the answer so far, without waiting [s].
   /// @throws Cancelled if the answer takes too long; so does the work of the piece.
-  Piece(Queries& queries, double& spent)
+  Piece(Queries& queries, double& spent) : Piece(queries, spent, queries.limits_.seconds) {}
+
+  /// @param seconds  that the answer may take instead.
+  Piece(Queries& queries, double& spent, double seconds)
       : turn_(queries.turns_),
         spent_(spent),
         start_(Clock::now()),
-        deadline_(start_ + std::chrono::duration_cast<Clock::duration>(
-                               std::chrono::duration<double>(queries.limits_.seconds - spent))) {
+        deadline_(start_ +
+                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - spent))) {
     checkCancelled();
   }
   ~Piece() { spent_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -322,8 +325,8 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
     const Body& description = scene.bodies[body];
     if (description.failure.empty() && !missing[body].empty())
       refuse("body " + description.name + ": " + missing[body]);
-    double spent = limits_.seconds - kPreparing;
-    const Piece piece(*this, spent);
+    double preparing = 0.0;
+    const Piece piece(*this, preparing, kPreparing);
     const std::string doubt = search.prepare(body);
     if (!doubt.empty()) response.message += "body " + description.name + ": " + doubt + "\n";
   }
