@@ -64,7 +64,7 @@ void ResultJoiner::add(const CycleMotion& motion, const CycleResult& result) {
 
 void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair, Known& known) const {
   const double start = ends_.times[1], length = motion.times.back();
-  pair.verdict = std::max(pair.verdict, piece.verdict);
+  pair.verdict = worseOf(pair.verdict, piece.verdict);
   if (pair.reason.empty()) pair.reason = piece.reason;
   if (piece.error.total() > pair.error.total()) pair.error = piece.error;
   if (piece.contact_error.total() > pair.contact_error.total()) pair.contact_error = piece.contact_error;

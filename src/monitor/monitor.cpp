@@ -187,7 +187,7 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   // A few pairs that were clear the last time take less time than handing them to other threads.
   constexpr std::size_t kFew = 8;
   const auto near = std::count_if(due.begin(), due.end(), [&](const DuePair& next) {
-    return result.pairs[static_cast<std::size_t>(next.pair)].verdict >= Verdict::kUncertain;
+    return mayTouch(result.pairs[static_cast<std::size_t>(next.pair)].verdict);
   });
   if (due.size() == 1 || (due.size() <= kFew && near <= 1)) return checkRange(0, due.size());
   // Each pair has its own state, so its result does not depend on the thread.

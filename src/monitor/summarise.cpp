@@ -6,7 +6,6 @@
 namespace sdf_ccd {
 
 CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(result), end_(end) {
-  result.verdict = Verdict::kClear;
   result.error_bound = result.contact_error = 0.0;
   result.error = {};
   result.not_clear.clear();
@@ -25,8 +24,7 @@ void CycleSummary::add(int index) {
     if (pair.span.last < end_) ++result_.delayed;
     return;
   }
-  any_ = true;
-  result_.verdict = std::max(result_.verdict, pair.verdict);
+  worst_.add(pair.verdict);
   if (pair.verdict != Verdict::kClear) result_.not_clear.push_back(index);
   if (pair.verdict == Verdict::kNotChecked) {
     ++result_.not_checked;
@@ -39,16 +37,15 @@ void CycleSummary::add(int index) {
 
 void CycleSummary::addSkipped(int count, const ErrorBound& error) {
   if (count == 0) return;
-  any_ = true;
+  worst_.add(Verdict::kClear);
   result_.skipped += count;
   take(error);
 }
 
 void CycleSummary::finish() {
   std::sort(result_.not_clear.begin(), result_.not_clear.end());
-  // Delayed pairs have not been checked over some of the time.
-  const bool is_open = !any_ || result_.delayed > 0;
-  if (is_open && result_.verdict == Verdict::kClear) result_.verdict = Verdict::kNotChecked;
+  if (result_.delayed > 0) worst_.add(Verdict::kNotChecked);  // delayed pairs were not checked over some of the time
+  result_.verdict = worst_.value();
 }
 
 void summarise(CycleResult& result) {
@@ -69,7 +66,7 @@ void addUnchecked(const std::vector<UncheckedPair>& pairs, CycleResult& result) 
     result.pairs.push_back(unchecked);
     ++result.not_checked;
   }
-  if (!pairs.empty() && result.verdict == Verdict::kClear) result.verdict = Verdict::kNotChecked;
+  if (!pairs.empty()) result.verdict = worseOf(result.verdict, Verdict::kNotChecked);
 }
 
 }  // namespace sdf_ccd

@@ -26,7 +26,7 @@ class CycleSummary {
 
   CycleResult& result_;
   std::size_t end_;
-  bool any_ = false;
+  WorstVerdict worst_;
 };
 
 /// Summarises a result from all of its pairs.

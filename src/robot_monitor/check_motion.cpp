@@ -86,7 +86,7 @@ class MotionChecker {
     forPieces(motion, request_, [&](double start, const CycleResult& result) {
       const Verdict before = found.verdict;
       add(result, found);
-      if (found.verdict > before) findPair(start, result, found);
+      if (found.verdict != before) findPair(start, result, found);
       return !first_only || found.verdict == Verdict::kClear;
     });
     return found;
@@ -129,7 +129,7 @@ class MotionChecker {
 
     void add(double start, const PairResult& pair) {
       if (pair.verdict == Verdict::kClear) return;
-      verdict = std::max(verdict, pair.verdict);
+      verdict = worseOf(verdict, pair.verdict);
       not_clear = std::min(not_clear, start);
       if (!pair.intervals.empty()) first_contact = std::min(first_contact, start + pair.intervals.front().enter);
     }
@@ -162,7 +162,7 @@ class MotionChecker {
 
   void add(const CycleResult& result, MotionVerdict& found) const {
     found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
-    found.verdict = std::max(found.verdict, result.verdict);
+    found.verdict = worseOf(found.verdict, result.verdict);
   }
 
   /// The pair that has the result's verdict first.

@@ -112,7 +112,7 @@ TEST(Schedule, SaysWhatTestingEveryPairSays) {
         ASSERT_EQ(spared.span.last, tested.span.last);
         ASSERT_EQ(spared.intervals.size(), tested.intervals.size());
         if (pair.verdict != Verdict::kNotChecked) worst = std::max(worst, pair.error.total());
-        near += pair.verdict >= Verdict::kUncertain;
+        near += mayTouch(pair.verdict);
         if (pair.verdict != Verdict::kClear) continue;
         ++clear;
         const auto distance = [&](std::size_t k, double s) {

@@ -46,7 +46,7 @@ class MarkersTest : public ::testing::Test {
     motion_.missing = missing_;
     result_ = monitor_->run(motion_, {false, 5});
     const CycleContext context{*scene_, motion_, motion_.times, start_};
-    drawn_ = drawer_.draw(result_, context, start_ + ros::Duration(kCycle + 0.25));
+    drawn_ = drawer_.draw(result_, context, start_ + ros::Duration(kCycle + 0.25), warnings_);
     start_ += ros::Duration(kCycle);
     return drawn_;
   }
@@ -72,6 +72,7 @@ class MarkersTest : public ::testing::Test {
   CycleMotion motion_;
   CycleResult result_;
   std::vector<std::string> missing_;
+  std::vector<std::string> warnings_;
   MarkerArray drawn_;  // last
 };
 
@@ -89,6 +90,13 @@ TEST_F(MarkersTest, StatusTellsVerdictClearanceBoundAndAge) {
   EXPECT_NE(status(markers).find("error bound " + lengthText(std::max(1e-6, result_.error_bound))), std::string::npos);
   EXPECT_NE(status(markers).find("0.25 s ago"), std::string::npos) << status(markers);
   EXPECT_EQ(markers.markers.size(), 1u);
+}
+
+TEST_F(MarkersTest, StatusTellsStandingWarnings) {
+  warnings_ = {"the fixed frame moves"};
+  const std::string text = status(draw({0.0, 0.5}));
+  EXPECT_EQ(text.find("CLEAR, at least "), 0u) << text;
+  EXPECT_NE(text.find("\nWarning: the fixed frame moves"), std::string::npos) << text;
 }
 
 TEST_F(MarkersTest, ContactIsListedNumberedAndDeletedWhenItIsOld) {

@@ -196,14 +196,16 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
       send(stampedTransform("odom", "world", now, x * i / 29.0));
       step(now);
     }
-    return loop_->movingFixedFrame();
+    return toMonitorState(*loop_, ros::Time(12.0)).warnings;
   };
-  EXPECT_EQ(driveTo(0.001), "");
+  EXPECT_TRUE(driveTo(0.001).empty());
   begin();
-  const std::string warning = driveTo(0.5);
-  EXPECT_EQ(warning.find("the fixed frame world moves in odom, and objects of the world move with it, such as plate"),
+  const std::vector<std::string> warnings = driveTo(0.5);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("the fixed frame world moves in odom, and objects of the world move with it, such as plate"),
             0u)
-      << warning;
+      << warnings[0];
+  EXPECT_EQ(toUncheckedState(1, "world", "", ros::Time(12.0), &loop_->warnings()).warnings, warnings);
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {

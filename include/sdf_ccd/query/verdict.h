@@ -1,13 +1,48 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 namespace sdf_ccd {
 
-/// In increasing order of severity: of several pairs, the most severe verdict counts.
-enum class Verdict {
-  kClear,       ///< apart at all times, even if the errors reach their bounds
-  kNotChecked,  ///< could not be checked, and why
-  kUncertain,   ///< neither is proved, as the errors may be as large as their bounds
-  kContact,     ///< touching at some time, even if the errors reach their bounds
+/// What a check says about a pair of bodies, or about several pairs. The numbers are those of the messages: a zeroed
+/// message says NOT_CHECKED. They are in no order of severity, so verdicts are not compared by them.
+enum class Verdict : std::uint8_t {
+  kNotChecked = 0,  ///< could not be checked, and why
+  kClear = 1,       ///< apart at all times, even if the errors reach their bounds
+  kUncertain = 2,   ///< neither is proved, as the errors may be as large as their bounds
+  kContact = 3,     ///< touching at some time, even if the errors reach their bounds
+};
+
+/// By severity: see isWorse().
+///@{
+bool operator<(Verdict, Verdict) = delete;
+bool operator>(Verdict, Verdict) = delete;
+bool operator<=(Verdict, Verdict) = delete;
+bool operator>=(Verdict, Verdict) = delete;
+///@}
+
+/// Whether `a` is more severe than `b`: CLEAR, NOT_CHECKED, UNCERTAIN, CONTACT, the most severe last.
+bool isWorse(Verdict a, Verdict b);
+inline Verdict worseOf(Verdict a, Verdict b) {
+  return isWorse(b, a) ? b : a;
+}
+
+/// Whether the bodies may touch, as far as the check tells: UNCERTAIN or CONTACT.
+inline bool mayTouch(Verdict verdict) {
+  return verdict == Verdict::kUncertain || verdict == Verdict::kContact;
+}
+
+/// The most severe of several verdicts.
+class WorstVerdict {
+ public:
+  void add(Verdict verdict) { worst_ = worst_ ? worseOf(*worst_, verdict) : verdict; }
+
+  /// NOT_CHECKED if there are none.
+  Verdict value() const { return worst_.value_or(Verdict::kNotChecked); }
+
+ private:
+  std::optional<Verdict> worst_;
 };
 
 /// "CLEAR", "NOT_CHECKED", "UNCERTAIN" or "CONTACT".

@@ -64,7 +64,8 @@ void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
     const Body& link = loop_.scene().bodies[body];
     if (!link.is_world) bag_.write(kMonitor + wrenchTopic(link), now, toWrenchStamped(loop_, body));
   }
-  bag_.write(kMonitor + "markers", now, drawer_.draw(loop_.result(), contextOf(loop_), now));
+  loop_.warnings().copyTo(warnings_);
+  bag_.write(kMonitor + "markers", now, drawer_.draw(loop_.result(), contextOf(loop_), now, warnings_));
   addLinks(now);
 }
 
@@ -75,7 +76,7 @@ void CheckedBag::addLinks(const ros::Time& now) {
 
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
-  MonitorState state = toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now);
+  MonitorState state = toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now, &loop_.warnings());
   state.proximity = proximity_.unchecked();
   writeLatched(kMonitor + "state", now, state);
   if (needs_.velocity_scale) writeScale(0.0, now);

@@ -58,6 +58,7 @@ class CheckedBag {
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
   BagWriter& bag_;
+  std::vector<std::string> warnings_;
   std::map<std::string, geometry_msgs::TransformStamped> static_transforms_;     // by child frame
   std::map<std::string, boost::shared_ptr<ros::M_string>> latched_connections_;  // by topic
 };

@@ -72,7 +72,8 @@ double MarkerDrawer::letter() const {
   return kLetter * options_.scale * box_.size();
 }
 
-MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now) {
+MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now,
+                               const std::vector<std::string>& warnings) {
   MarkerArray markers;
   if (deletes_all_) {
     markers.markers.push_back(deleteAllMarker(fixed_frame_));
@@ -93,7 +94,7 @@ MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cy
   for (const PairState& pair : states_.pairs()) {
     if (pair.verdict != Verdict::kNotChecked) known_until = std::min(known_until, pair.until);
   }
-  std::string text = statusText(states_, result, cycle, secondsBetween(known_until, now));
+  std::string text = statusText(states_, result, cycle, secondsBetween(known_until, now), warnings);
   for (std::size_t i = 0; i < listed.size(); ++i) text += "\n" + std::to_string(i + 1) + "  " + listed[i]->text;
   if (shown_.size() > listed.size()) text += "\nand " + std::to_string(shown_.size() - listed.size()) + " more";
   markers.markers.push_back(statusMarker(text, states_.verdict()));

@@ -33,8 +33,10 @@ class MarkerDrawer {
   }
 
   /// Markers of all pairs in contact, deletions of those no longer in contact, and the status.
-  /// @param now  gives the age of the results in the status.
-  visualization_msgs::MarkerArray draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now);
+  /// @param now       gives the age of the results in the status.
+  /// @param warnings  for the status, as in MonitorState.
+  visualization_msgs::MarkerArray draw(const CycleResult& result, const CycleContext& cycle, const ros::Time& now,
+                                       const std::vector<std::string>& warnings = {});
 
   /// Deletes everything, and shows that nothing is checked, for this reason.
   visualization_msgs::MarkerArray clear(const std::string& reason);

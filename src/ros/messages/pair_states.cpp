@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace sdf_ccd {
-namespace {
-
-bool isHeld(Verdict verdict) {
-  return verdict >= Verdict::kUncertain;
-}
-
-}  // namespace
 
 void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
   pairs_.resize(result.pairs.size());
@@ -19,8 +12,8 @@ void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
     if (pair.span.empty()) continue;
     state.until = cycle.start + ros::Duration(cycle.motion.times[pair.span.last]);
     state.clearance = pair.verdict == Verdict::kClear ? pair.clearance : -1.0;
-    const bool holds = isHeld(state.verdict) && state.until < state.holds_until;
-    if (holds && pair.verdict < state.verdict) continue;
+    const bool holds = mayTouch(state.verdict) && state.until < state.holds_until;
+    if (holds && isWorse(state.verdict, pair.verdict)) continue;
     const double depth = pair.intervals.empty() ? 0.0 : pair.deepest.depth;
     state.depth = holds && pair.verdict == state.verdict ? std::max(state.depth, depth) : depth;
     state.verdict = pair.verdict;
@@ -42,10 +35,9 @@ void PairStates::clear() {
 }
 
 Verdict PairStates::verdict() const {
-  if (pairs_.empty()) return Verdict::kNotChecked;
-  Verdict worst = Verdict::kClear;
-  for (const PairState& pair : pairs_) worst = std::max(worst, pair.verdict);
-  return worst;
+  WorstVerdict worst;
+  for (const PairState& pair : pairs_) worst.add(pair.verdict);
+  return worst.value();
 }
 
 std::vector<std::optional<Verdict>> PairStates::ofBodies(const Scene& scene) const {
@@ -53,7 +45,7 @@ std::vector<std::optional<Verdict>> PairStates::ofBodies(const Scene& scene) con
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const Verdict verdict = i < pairs_.size() ? pairs_[i].verdict : Verdict::kNotChecked;
     for (const int body : {scene.pairs[i].body_a, scene.pairs[i].body_b}) {
-      verdicts[body] = std::max(verdicts[body].value_or(verdict), verdict);
+      verdicts[body] = worseOf(verdicts[body].value_or(verdict), verdict);
     }
   }
   return verdicts;

@@ -37,10 +37,10 @@ class PairStates {
 
   const std::vector<PairState>& pairs() const { return pairs_; }
 
-  /// The largest of all pairs; NOT_CHECKED if there are none.
+  /// The worst of all pairs; NOT_CHECKED if there are none.
   Verdict verdict() const;
 
-  /// The largest of each body's pairs; none for bodies in no pair.
+  /// The worst of each body's pairs; none for bodies in no pair.
   std::vector<std::optional<Verdict>> ofBodies(const Scene& scene) const;
 
  private:

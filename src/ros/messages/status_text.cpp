@@ -97,7 +97,8 @@ int lineCount(const std::string& text) {
   return 1 + static_cast<int>(std::count(text.begin(), text.end(), '\n'));
 }
 
-std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age) {
+std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age,
+                       const std::vector<std::string>& warnings) {
   std::string text = headline(states, result, cycle);
   if (result.checked + result.skipped > 0) {
     constexpr double kLeast = 1e-6;  // [m], of what is shown
@@ -105,7 +106,10 @@ std::string statusText(const PairStates& states, const CycleResult& result, cons
     text += fmt::format("\nerror bound {}, {:.2f} s ago", bound, std::max(0.0, age));
   }
   const std::string unchecked = uncheckedPairs(states, result, cycle);
-  return unchecked.empty() ? text : text + "\n" + unchecked;
+  if (!unchecked.empty()) text += "\n" + unchecked;
+  for (const std::string& warning : warnings)
+    text += "\n" + wrapped("Warning: " + warning.substr(0, kLongestReason), kWidth);
+  return text;
 }
 
 std::string uncheckedText(const std::string& reason) {

@@ -8,9 +8,11 @@
 namespace sdf_ccd {
 
 /// Status for a viewer: verdict and largest depth or clearance, error bound, age of the results, number of pairs that
-/// are not checked and why. Several lines.
+/// are not checked and why, warnings. Several lines.
 /// @param age  of the results [s].
-std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age);
+/// @param warnings  as in MonitorState.
+std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age,
+                       const std::vector<std::string>& warnings);
 
 /// Status while nothing is checked, for this reason.
 std::string uncheckedText(const std::string& reason);

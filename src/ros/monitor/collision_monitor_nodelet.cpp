@@ -270,7 +270,8 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 /// May be called while the thread of the cycles works.
 boost::shared_ptr<MonitorState> CollisionMonitor::uncheckedState(const std::string& reason) const {
   const std::uint64_t version = queries_ ? queries_->world()->version() : 0;
-  return boost::make_shared<MonitorState>(toUncheckedState(version, described_.fixed_frame, reason, ros::Time::now()));
+  return boost::make_shared<MonitorState>(toUncheckedState(version, described_.fixed_frame, reason, ros::Time::now(),
+                                                           loop_ ? &loop_->warnings() : nullptr));
 }
 
 void CollisionMonitor::restart(const std::string& reason) {

@@ -147,6 +147,7 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   setCycle(loop, message);
   message.missing = missingBodies(loop);
   for (const std::string& failed : failedBodies(loop.scene())) message.missing.push_back(failed);
+  loop.warnings().copyTo(message.warnings);
   message.latency = secondsBetween(loop.cycle().end, now);
   message.contact_error_bound = result.contact_error;
   setScalars(loop, message);
@@ -185,8 +186,9 @@ ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::stri
 }
 
 MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fixed_frame, const std::string& reason,
-                              const ros::Time& now) {
+                              const ros::Time& now, const StandingWarnings* warnings) {
   MonitorState message;
+  if (warnings) warnings->copyTo(message.warnings);
   message.scene_version = scene_version;
   message.header.stamp = now;
   message.header.frame_id = fixed_frame;

@@ -33,8 +33,9 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
 /// The same for a whole gap between cycles, sent at its end: cycles then start again, or have ended.
 ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason);
 /// @param scene_version  0 if there is no scene yet.
+/// @param warnings       MonitorLoop::warnings(); null if there is no loop yet.
 MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fixed_frame, const std::string& reason,
-                              const ros::Time& now);
+                              const ros::Time& now, const StandingWarnings* warnings);
 
 /// Sum of the contact wrenches on a body, in its frame, about its origin [N, N·m].
 void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchStamped& message);

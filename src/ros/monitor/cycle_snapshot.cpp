@@ -8,6 +8,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   motion_ = loop.cycle().motion;
   samples_ = loop.cycle().recorded;
   origin_ = loop.cycle().origin;
+  loop.warnings().copyTo(warnings_);
   result_.verdict = result.verdict;
   result_.error_bound = result.error_bound;
   result_.error = result.error;

@@ -16,6 +16,7 @@ class CycleSnapshot {
 
   const CycleResult& result() const { return result_; }
   CycleContext context() const { return {world_->scene(), motion_, samples_, origin_}; }
+  const std::vector<std::string>& warnings() const { return warnings_; }  ///< MonitorLoop::warnings()
 
  private:
   std::shared_ptr<const CheckedWorld> world_;
@@ -23,6 +24,7 @@ class CycleSnapshot {
   CycleMotion motion_;
   std::vector<double> samples_;
   ros::Time origin_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace sdf_ccd

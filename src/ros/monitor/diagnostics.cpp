@@ -77,9 +77,12 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
                     health_.pairs_postponed);
   } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
     status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds the parameter max_error");
+  } else if (!health_.standing.empty()) {
+    status.summary(DiagnosticStatus::WARN, "running; " + health_.standing.front());
   } else {
     status.summary(DiagnosticStatus::OK, "running");
   }
+  addLines("warning", health_.standing, status);
   status.addf("rate [Hz]", "%.1f", health_.rate);
   status.addf("latency [ms]", "%.1f", 1e3 * health_.latency);
   status.addf("run time [ms]", "%.2f", 1e3 * health_.run_time);
@@ -103,8 +106,6 @@ void Diagnostics::transforms(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::WARN, health_.bad_joints.front());
   } else if (!health_.contradicted.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.contradicted);
-  } else if (!health_.moving_frame.empty()) {
-    status.summary(DiagnosticStatus::WARN, health_.moving_frame);
   } else if (!health_.trigger_warning.empty()) {
     status.summary(DiagnosticStatus::WARN, health_.trigger_warning);
   } else if (health_.pairs_delayed > 0) {

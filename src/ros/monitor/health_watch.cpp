@@ -15,7 +15,6 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kLateHold = 3.0;     // time for which late transforms are reported [s]
-constexpr double kFramePeriod = 1.0;  // between two tests of the fixed frame [s]
 constexpr double kWarnDelay = 2.0;    // time before bodies that are not checked are logged [s]
 constexpr double kWarnPeriod = 10.0;  // between such log messages [s]
 
@@ -73,8 +72,8 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
   health_.pairs_delayed = result.delayed;
   health_.pairs_postponed = result.postponed;
   health_.short_cycles += health_.pairs_postponed > 0;
+  watchStanding(loop.warnings());
   watchLate(loop, now);
-  watchFixedFrame(loop, now);
   const std::string body = health_.missing.empty() ? "" : uncheckedCause(loop);
   watchUnchecked(loop, body, result.not_checked > 0 ? uncheckedPair(loop) : "");
 }
@@ -98,6 +97,7 @@ void HealthWatch::recordTrigger(const std::string& awaited_frame) {
 void HealthWatch::recordStall(const MonitorLoop& loop, const std::string& reason) {
   health_.stall = reason;
   health_.rate = 0.0;
+  watchStanding(loop.warnings());
   watchUnchecked(loop, reason, uncheckedCause(loop));
 }
 
@@ -106,21 +106,22 @@ void HealthWatch::restart() {
   last_cycle_ = ros::WallTime();
 }
 
+void HealthWatch::watchStanding(const StandingWarnings& warnings) {
+  warnings.copyTo(standing_);
+  if (standing_ == health_.standing) return;
+  for (const std::string& warning : standing_) {
+    const std::vector<std::string>& known = health_.standing;
+    if (std::find(known.begin(), known.end(), warning) == known.end()) ROS_WARN("%s", warning.c_str());
+  }
+  health_.standing = standing_;
+}
+
 void HealthWatch::measureRate(const ros::WallTime& now) {
   if (!last_cycle_.isZero()) {
     const double rate = 1.0 / std::max(1e-6, (now - last_cycle_).toSec());
     health_.rate = health_.rate > 0.0 ? 0.9 * health_.rate + 0.1 * rate : rate;
   }
   last_cycle_ = now;
-}
-
-void HealthWatch::watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now) {
-  if ((now - last_frame_check_).toSec() < kFramePeriod) return;
-  last_frame_check_ = now;
-  const std::string warning = loop.movingFixedFrame();
-  if (warning.empty()) return;
-  if (health_.moving_frame.empty()) ROS_WARN("%s", warning.c_str());
-  health_.moving_frame = warning;  // kept from then on, also while the robot rests
 }
 
 void HealthWatch::watchUnchecked(const MonitorLoop& loop, const std::string& cause, const std::string& other) {

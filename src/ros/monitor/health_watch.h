@@ -35,15 +35,15 @@ class HealthWatch {
  private:
   void warn(const std::string& warning);
   void countPairs(const Scene& scene);
+  void watchStanding(const StandingWarnings& warnings);
   void measureRate(const ros::WallTime& now);
-  void watchFixedFrame(const MonitorLoop& loop, const ros::WallTime& now);
   void watchUnchecked(const MonitorLoop& loop, const std::string& cause, const std::string& other);
   void watchLate(const MonitorLoop& loop, const ros::WallTime& now);
 
   MonitorHealth health_;
+  std::vector<std::string> standing_;             // warnings as last read
   ros::WallTime last_cycle_;                      // 0 before the first one
   ros::WallTime last_late_;                       // when transforms last contradicted a cycle
-  ros::WallTime last_frame_check_;                // when the fixed frame was last tested
   ros::WallTime awaited_since_;                   // when a frame of the trigger was first missed; 0: none is
   std::string awaited_frame_;                     // the frame that was warned about; empty: none
   ros::WallTime unchecked_since_, last_warning_;  // 0: everything is checked; no warning was given

@@ -101,7 +101,8 @@ void MarkerOutputs::draw(const Drawing& drawing) {
   if (draws_cycle) {
     drawer_.setOptions(drawing.options);
     const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(
-        drawer_.draw(drawing.snapshot.result(), drawing.snapshot.context(), ros::Time::now()));
+        drawer_.draw(drawing.snapshot.result(), drawing.snapshot.context(), ros::Time::now(),
+                     drawing.snapshot.warnings()));
     if (drawing.draws_markers) markers_.publish(markers);
   }
   if (drawing.draws_links && (draws_cycle || drawing.is_unchecked)) drawLinks();

@@ -32,7 +32,7 @@ struct MonitorHealth {
   int pairs_delayed = 0;                ///< in the last cycle, because of late transforms
   int pairs_postponed = 0;              ///< in the last cycle, because of max_cycle_time
   long short_cycles = 0;                ///< number of cycles with such pairs
-  std::string moving_frame;             ///< MonitorLoop::movingFixedFrame()
+  std::vector<std::string> standing;    ///< MonitorLoop::warnings()
   std::string trigger_warning;          ///< about a frame of the trigger that has never arrived; empty if there is none
   std::string contradicted;  ///< late transforms that contradicted results recently; empty if there were none
   std::vector<std::string> bad_joints;  ///< joints with positions in joint_states that are not finite

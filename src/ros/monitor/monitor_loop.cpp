@@ -131,6 +131,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     request_ = request;
     run(request);
     trackContacts(request);
+    watchFixedFrame();
   }
   return step;
 }
@@ -158,6 +159,15 @@ void MonitorLoop::guardReach() {
 void MonitorLoop::trackContacts(const CycleRequest& request) {
   if (!request.wantsContacts()) return contacts_.endAllAsLost();
   contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+}
+
+void MonitorLoop::watchFixedFrame() {
+  constexpr double kPeriod = 0.2;  // between two tests [s]
+  const double elapsed = secondsBetween(frame_watched_, cycle_.end);
+  if (0.0 <= elapsed && elapsed < kPeriod) return;
+  frame_watched_ = cycle_.end;
+  const std::string warning = movingFixedFrame();
+  if (!warning.empty()) warnings_.set("fixed_frame", warning);
 }
 
 std::string MonitorLoop::movingFixedFrame() const {

@@ -5,6 +5,7 @@
 #include "monitor/contact_tracker.h"
 #include "monitor/pair_distances.h"
 #include "ros/monitor/reach_guard.h"
+#include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
 
 namespace sdf_ccd {
@@ -55,9 +56,11 @@ class MonitorLoop {
   /// @param change  made by prepare() since the last adopt().
   void adopt(LoopChange& change);
 
-  /// A warning if the fixed frame moves in tf, like the base of a mobile robot, and objects of the world are fixed in
-  /// it, so that they move with it; else empty.
-  std::string movingFixedFrame() const;
+  /// Of the world that it checks, and what others add. The loop's own: that the fixed frame moves in tf, like the base
+  /// of a mobile robot, and objects of the world are fixed in it, so that they move with it. It is kept from then on,
+  /// also while the robot rests.
+  StandingWarnings& warnings() { return warnings_; }
+  const StandingWarnings& warnings() const { return warnings_; }
 
   /// Discards everything but static transforms; the next cycle begins with the next moving ones.
   void reset();
@@ -89,6 +92,8 @@ class MonitorLoop {
   void run(const CycleRequest& request);
   void guardReach();
   void trackContacts(const CycleRequest& request);
+  void watchFixedFrame();
+  std::string movingFixedFrame() const;
 
   std::shared_ptr<const CheckedWorld> world_;
   const DescribedScene described_;
@@ -103,6 +108,8 @@ class MonitorLoop {
   const CycleResult* result_ = nullptr;
   ContactTracker contacts_;
   std::unique_ptr<PairDistances> distances_;
+  StandingWarnings warnings_;
+  ros::Time frame_watched_;  // when the fixed frame was last tested
 };
 
 }  // namespace sdf_ccd

@@ -199,7 +199,9 @@ void run(const Arguments& arguments) {
   std::vector<std::string> of_motion = motion.warnings();
   if (const TfIgnored ignored = loop.history().ignored(); ignored.refused > 0)
     of_motion.push_back(std::to_string(ignored.refused) + " transforms were refused, the last as " + ignored.refusal);
-  if (!loop.movingFixedFrame().empty()) of_motion.push_back(loop.movingFixedFrame());
+  std::vector<std::string> standing;
+  loop.warnings().copyTo(standing);
+  of_motion.insert(of_motion.end(), standing.begin(), standing.end());
   for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
     warnings.push_back(warning);

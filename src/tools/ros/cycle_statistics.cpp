@@ -85,11 +85,11 @@ std::string CycleStatistics::summary(const ros::Time& begin) const {
 }
 
 std::string CycleStatistics::verdictLine() const {
-  std::array<std::size_t, 4> counts = {};
-  for (const CycleRecord& cycle : cycles_) ++counts[static_cast<std::size_t>(cycle.verdict)];
   std::string text = "cycles           " + std::to_string(cycles_.size()) + ":";
-  for (std::size_t v = 0; v < counts.size(); ++v) {
-    text += (v == 0 ? " " : ", ") + std::to_string(counts[v]) + " " + toString(static_cast<Verdict>(v));
+  for (const Verdict verdict : {Verdict::kClear, Verdict::kNotChecked, Verdict::kUncertain, Verdict::kContact}) {
+    const auto count = std::count_if(cycles_.begin(), cycles_.end(),
+                                     [&](const CycleRecord& cycle) { return cycle.verdict == verdict; });
+    text += (verdict == Verdict::kClear ? " " : ", ") + std::to_string(count) + " " + toString(verdict);
   }
   return text + "\n";
 }
