@@ -247,6 +247,15 @@ bool needsWitnesses(const BodyDescription& body) {
                                                    [](const GeometryDescription& part) { return isHalfSpace(part); });
 }
 
+BuiltBody failedBody(const BodyDescription& description, const std::string& failure) {
+  BuiltBody failed;
+  static_cast<BodyPlace&>(failed.body) = description;
+  failed.body.failure = failure;
+  failed.report.name = description.name;
+  failed.report.field = "failed";
+  return failed;
+}
+
 BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                         MeshPool& pool, const Progress& progress) {
   BuiltBody built;

@@ -35,6 +35,9 @@ struct BuiltBody {
 BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                         MeshPool& pool, const Progress& progress);
 
+/// A body that cannot be checked for this reason.
+BuiltBody failedBody(const BodyDescription& description, const std::string& failure);
+
 /// The triangles of a body's geometry; null if it has none.
 std::shared_ptr<const BodySurface> surfaceOf(const BodyDescription& description, MeshPool& pool);
 

@@ -29,9 +29,10 @@ void appendTo(std::string& key, const std::optional<T>& number) {
 std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                        GeometryKeys& keys) {
   const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
-               exact_depths, is_shared, max_error, divides_max_error] = options;
+               exact_depths, is_shared, max_error, max_preparation_time, divides_max_error] = options;
   static_cast<void>(cache);
   static_cast<void>(is_shared);
+  static_cast<void>(max_preparation_time);
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
   const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
   const auto& [field, shell, edges_only, decides, witnesses, triangles, surface] = needs;
@@ -47,11 +48,9 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   return key;
 }
 
-}  // namespace
-
-BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
-                    MeshPool& pool, const Progress& progress) {
-  if (!description.failure.empty() || !needs.any()) return buildUnshared(description, needs, options, pool, progress);
+/// As buildBody(), but for the limit of time.
+BuiltBody buildInAnyTime(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                         MeshPool& pool, const Progress& progress) {
   WeakStore<BuiltBody>& shared = pool.content().bodies;
   const std::string key = contentKey(description, needs, options, pool.keys());
   std::shared_ptr<const BuiltBody> known = shared.find(key);
@@ -70,6 +69,18 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
   if (mine.body.triangles && !was_known) mine.report.shell_bytes += mine.body.triangles->bytes();
   if (needs.surface) mine.body.surface = surfaceOf(description, pool);
   return mine;
+}
+
+}  // namespace
+
+BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
+                    MeshPool& pool, const Progress& progress) {
+  if (!description.failure.empty() || !needs.any()) return buildUnshared(description, needs, options, pool, progress);
+  try {
+    return pool.withinTime(description, [&] { return buildInAnyTime(description, needs, options, pool, progress); });
+  } catch (const TookTooLong& late) {
+    return failedBody(description, late.what());
+  }
 }
 
 void countAsShared(BodyReport& report) {

@@ -44,6 +44,17 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   return meshes_.emplace(key, std::move(pooled)).first->second;
 }
 
+MeshPool::TimeUsed& MeshPool::timeOf(const BodyDescription& body) {
+  std::string key;
+  for (const GeometryDescription& geometry : body.geometry) key += keys_.keyOf(geometry);
+  return times_[key];
+}
+
+std::string MeshPool::tooLong() const {
+  return "preparing it takes more than the " + numberText(options_.max_preparation_time) +
+         " s of max_preparation_time: its meshes have too many triangles, or too many that cross each other";
+}
+
 ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, const ShellUse& use) const {
   const Growth growth = use.decides ? Growth::kNone : Growth::kSlow;
   ShellOptions options = shellOptionsFor(options_, surfaceArea(mesh.mesh), growth);

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 
 #include "body/geometry_keys.h"
+#include "common/seconds_since.h"
+#include "common/time_limit.h"
 #include "common/weak_store.h"
 #include "geometry/closed_solid.h"
 #include "sdf_ccd/body/prepare_body.h"
@@ -57,6 +61,15 @@ class MeshPool {
   SharedContent& content();
   GeometryKeys& keys() { return keys_; }
 
+  /// Calls work(), which is part of preparing this body. All of it together may take options.max_preparation_time.
+  /// @throws TookTooLong if it takes longer, and at once if bodies of the same meshes have; see withinSeconds().
+  template <class Work>
+  auto withinTime(const BodyDescription& body, const Work& work) {
+    TimeUsed& used = timeOf(body);
+    const TimeUsed::Part part(used);
+    return withinSeconds(std::max(0.0, options_.max_preparation_time - used.seconds), tooLong(), work);
+  }
+
   /// Names of the cache's files that hold what was made or loaded.
   const std::set<std::string>& files() const { return files_; }
 
@@ -74,6 +87,27 @@ class MeshPool {
   Made makeShell(PooledMesh& mesh, const ShellUse& use);
 
  private:
+  /// Of preparing bodies of the same meshes.
+  struct TimeUsed {
+    /// Adds its own lifetime.
+    class Part {
+     public:
+      explicit Part(TimeUsed& used) : used_(used), start_(std::chrono::steady_clock::now()) {}
+      ~Part() { used_.seconds += secondsSince(start_); }
+      Part(const Part&) = delete;
+      Part& operator=(const Part&) = delete;
+
+     private:
+      TimeUsed& used_;
+      std::chrono::steady_clock::time_point start_;
+    };
+
+    double seconds = 0.0;
+  };
+
+  TimeUsed& timeOf(const BodyDescription& body);
+  std::string tooLong() const;
+
   /// Notes the file. A warning of the pool replaces that of the cache.
   Made noted(CacheOutcome outcome, const std::string& warning);
 
@@ -83,6 +117,7 @@ class MeshPool {
   SharedContent content_;
   std::unordered_map<std::string, PooledMesh> meshes_;  // by the geometry's key
   std::set<std::string> files_;
+  std::unordered_map<std::string, TimeUsed> times_;  // by the keys of a body's geometry, wherever it is in the body
 };
 
 }  // namespace sdf_ccd

@@ -50,6 +50,7 @@ class Inspection {
     }
     if (closed_.size() > 1) doubtNested(result);
     for (const std::int32_t i : closed_) {
+      checkCancelled();
       // Of two parts that meet in edges, only one may be inside out.
       doubt(result[i], result[i].flip && branches(extract(mesh_, patches_[i])));
       doubt(result[i], result[i].flip && isHeldByOpen(i));
@@ -178,6 +179,7 @@ class Inspection {
   /// A patch's winding number at the witness of another one. If they touch there, it is evaluated just behind the
   /// witness; not always, because a wall between them may be thinner than that distance.
   long numberIn(std::int32_t holder, std::int32_t inner) const {
+    checkCancelled();
     constexpr double kWhole = 0.25;
     const TriangleTree& tree = *components_[holder].tree;
     const double at = tree.windingNumber(components_[inner].witness), whole = std::round(at);
@@ -213,6 +215,7 @@ class Inspection {
   /// Patches whose box contains this one's, up to rounding, and that a ray from its witness along x may cross;
   /// ascending.
   std::set<std::int32_t> candidates(std::int32_t inner) const {
+    checkCancelled();
     const MeasuredPatch& component = components_[inner];
     std::set<std::int32_t> found;
     const Vector3d rounding = Vector3d::Constant(rounding_);
@@ -258,6 +261,7 @@ class Inspection {
     // A triangle may belong to the lobe only in part.
     doubt(result[i], !touchedBy(patches_[i].triangles).empty());
     for (const std::int32_t other : closed_) {
+      checkCancelled();
       if (result[i].doubtful) return;
       if (other == i) continue;
       const double number = component.tree->windingNumber(components_[other].witness);

@@ -9,6 +9,7 @@
 #include "common/parallel_for.h"
 #include "common/pi.h"
 #include "geometry/trees/triangle_tree.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -49,6 +50,7 @@ class Caster {
 
   /// Whether the patch, as it is drawn, bounds a solid: the winding number in front of it is an integer, 0 or more.
   bool boundsSolid(std::int32_t patch, int points) const {
+    checkCancelled();
     constexpr double kBefore = 1e-7, kWhole = 0.05;  // [m]; of the number: cracks of closed meshes change it by less
     const std::vector<std::int32_t>& triangles = patches_[patch].triangles;
     Sequence random(static_cast<std::uint64_t>(patch));

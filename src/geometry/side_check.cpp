@@ -15,7 +15,10 @@ SideCheck::SideCheck(const TriangleMesh& mesh) : mesh_(mesh), tree_(mesh) {
   counts_ = (box.sizes() / cell_).array().ceil().max(1.0).cast<int>();
   origin_ = box.center() - 0.5 * cell_ * counts_.cast<double>();
   winding_.resize(std::size_t(counts_.prod()));
-  forEachPoint(counts_, [&](const Vector3i& c) { winding_[index(c)] = tree_.windingNumber(center(c)); });
+  forEachPoint(counts_, [&](const Vector3i& c) {
+    checkCancelled();
+    winding_[index(c)] = tree_.windingNumber(center(c));
+  });
 }
 
 std::vector<Vector3i> SideCheck::missing(Openings& openings) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sdf_ccd/common/cancel.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -197,6 +199,7 @@ class TriangleCutter::Task {
   /// @param depth  of the recursion: a piece that is cut so often is left unknown, as the stack is bounded.
   std::vector<SurfacePart> divide(const FlatPiece& piece, std::vector<int> near, int depth = 0) {
     constexpr int kMaxDepth = 1000;
+    cancel_.check();
     if (depth == kMaxDepth) return {{piece, Sides::kUnknown}};
     cost_.steps += near.size() + 1;
     costs_too_much_ = costs_too_much_ || cost_.steps > most_.steps || cost_.visits > most_.visits;
@@ -246,6 +249,7 @@ class TriangleCutter::Task {
     return has_sides && !is_first ? Sides::kDuplicate : found;
   }
 
+  const CancelPoint cancel_;
   const TriangleCutter& cutter_;
   int triangle_;
   std::array<Vector3d, 3> corners_;

@@ -63,7 +63,7 @@ struct WorldEditor::Impl {
   SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan,
                            const std::vector<std::string>& keys);
   std::vector<PreparedBody*> prepareAll(const SceneDescription& description, ScenePlan& plan,
-                                        const std::vector<std::string>& keys, const OnBody& progress,
+                                        const std::vector<std::string>& keys, MeshPool& pool, const OnBody& progress,
                                         WorldSnapshot& snapshot);
   std::vector<Shared> addBodies(const SceneDescription& description, const std::vector<PreparedBody*>& prepared,
                                 WorldSnapshot& snapshot, Scene& scene);
@@ -112,10 +112,9 @@ SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description,
 
 /// Finds or makes the bodies; null for those that cannot be checked, or are in no pair.
 std::vector<PreparedBody*> WorldEditor::Impl::prepareAll(const SceneDescription& description, ScenePlan& plan,
-                                                         const std::vector<std::string>& keys, const OnBody& progress,
-                                                         WorldSnapshot& snapshot) {
+                                                         const std::vector<std::string>& keys, MeshPool& pool,
+                                                         const OnBody& progress, WorldSnapshot& snapshot) {
   const std::size_t count = description.bodies.size();
-  MeshPool pool(options);
   std::vector<PreparedBody*> prepared(count, nullptr);
   const auto prepare = [&](std::size_t b) {
     checkCancelled();
@@ -218,7 +217,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   const SceneCost cost = impl_->affordableCost(description, plan, keys);
   if (announce && cost.seconds > kLongTime) announce(summary(cost));
 
-  const std::vector<PreparedBody*> prepared = impl_->prepareAll(description, plan, keys, progress, *snapshot);
+  const auto pool = cost.meshes ? cost.meshes : std::make_shared<MeshPool>(impl_->options);
+  const std::vector<PreparedBody*> prepared = impl_->prepareAll(description, plan, keys, *pool, progress, *snapshot);
   Scene scene = plannedScene(description, plan, impl_->options);
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
   setTotals(scene);

@@ -11,6 +11,7 @@
 #include "resolution_options.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "threads_option.h"
+#include "time_option.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "tools/ros/monitor_scene.h"
 #endif
@@ -28,6 +29,7 @@ struct Arguments {
   std::optional<double> spacing;
   std::string config;
   ThreadsOption threads;
+  TimeOption time;
 };
 
 #ifdef SDF_CCD_WITH_ROS
@@ -50,7 +52,7 @@ void buildFile(const Arguments& arguments) {
   build.field = is_mesh ? arguments.resolution.fieldOptions() : arguments.resolution.fieldOptions(build.voxel_size / 2);
   build.spacing = arguments.spacing;
   std::cout << build.name << ": " << file << "\n";
-  buildMesh(std::move(build), arguments.out);
+  arguments.time.limit([&] { buildMesh(std::move(build), arguments.out); });
 }
 
 void run(const Arguments& arguments) {
@@ -62,7 +64,9 @@ void run(const Arguments& arguments) {
   if (!arguments.config.empty()) return prepareWithParameters(arguments);
 #endif
   if (arguments.urdf.empty()) return buildFile(arguments);
-  prepareRobot({arguments.urdf, arguments.srdf, arguments.resolution.given(), arguments.spacing}, arguments.out);
+  prepareRobot(
+      {arguments.urdf, arguments.srdf, arguments.resolution.given(), arguments.spacing, arguments.time.seconds},
+      arguments.out);
 }
 
 }  // namespace
@@ -93,6 +97,7 @@ void addBuildCommand(CLI::App& app) {
       "built, too");
 #endif
   arguments->threads.addTo(*command);
+  arguments->time.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -17,6 +17,7 @@
 #include "sdf_ccd/shell/point_shell.h"
 #include "slice.h"
 #include "storage/checked_file.h"
+#include "time_option.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -26,6 +27,7 @@ struct Arguments {
   std::string slice;
   std::string out;
   ResolutionOptions resolution;
+  TimeOption time;
 };
 
 void printField(const DistanceField& field) {
@@ -102,12 +104,12 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
 void run(const Arguments& arguments) {
   if (arguments.slice.empty() != arguments.out.empty()) throw std::runtime_error("--slice and --out go together");
   if (arguments.slice.empty()) {
-    inspect(arguments);
+    arguments.time.limit([&] { inspect(arguments); });
     return;
   }
   const Slice slice = parseSlice(arguments.slice);
   OutputFile out(arguments.out);
-  const std::optional<DistanceField> field = inspect(arguments);
+  const std::optional<DistanceField> field = arguments.time.limit([&] { return inspect(arguments); });
   if (!field) throw std::runtime_error(arguments.file + ": a shell cannot be sliced");
   out.stream() << drawSlice(*field, slice);
   out.commit();
@@ -125,6 +127,7 @@ void addInfoCommand(CLI::App& app) {
       "--out", arguments->out,
       "PNG file for the slice: the surface black, orange where it is a cap over an opening of the mesh");
   arguments->resolution.addTo(*command);
+  arguments->time.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }
 

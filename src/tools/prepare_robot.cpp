@@ -31,6 +31,7 @@ BodyOptions optionsOf(const RobotFiles& files) {
     setFieldResolution(files.field, options);
   }
   options.field.band = files.field.band;
+  options.max_preparation_time = files.max_time;
   if (files.spacing) setShellSpacing(*files.spacing, options);
   return options;
 }

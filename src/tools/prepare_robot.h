@@ -12,6 +12,7 @@ struct RobotFiles {
   std::string urdf, srdf;         ///< no SRDF if empty
   FieldOptions field;             ///< without a resolution: that of the monitor
   std::optional<double> spacing;  ///< of the shells' points [m]
+  double max_time;                ///< BodyOptions::max_preparation_time [s]
 };
 
 /// prepareScene() of a robot without a world. @throws as prepareScene(), and std::runtime_error if a file is bad.

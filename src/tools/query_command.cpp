@@ -25,6 +25,7 @@
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
+#include "time_option.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -37,6 +38,7 @@ struct Arguments {
   std::string segments;
   std::string out;
   ResolutionOptions resolution;
+  TimeOption time;
   SegmentOptions query;
   bool impact = false;
 };
@@ -114,7 +116,7 @@ void run(const Arguments& arguments) {
     throw std::invalid_argument("--out and --segments are the same file");
   if (!arguments.field.empty()) arguments.resolution.requireNone("--field names a field that exists already");
   OutputFile out(arguments.out);
-  const DistanceField field = fieldOf(arguments);
+  const DistanceField field = arguments.time.limit([&] { return fieldOf(arguments); });
   if (std::abs(arguments.query.sigma) > field.band()) {
     throw std::invalid_argument("--sigma " + shortText(arguments.query.sigma) + " lies outside the field's band of " +
                                 shortText(field.band()) + " m");
@@ -153,6 +155,7 @@ void addQueryCommand(CLI::App& app) {
       "segment,t_earliest,t,t_latest,depth,depth_low,depth_high. The truth lies between the bounds; "
       "empty: not known, as the point may only graze, or an opening's cap be all that it meets");
   arguments->resolution.addTo(*command);
+  arguments->time.addTo(*command);
   command->callback([arguments] { run(*arguments); });
 }
 

@@ -1,5 +1,7 @@
 // Meshes that no robot should have, but some do: unloading must not wait until such a mesh has been processed.
 #include "cancel_moments.h"
+#include "geometry/closed_solid.h"
+#include "oracle/hostile_meshes.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
@@ -42,6 +44,27 @@ TEST(CancelMesh, OrientingLoosePartsEndsSoon) {
   }
   ASSERT_EQ(soup.triangles.size(), 100000u);
   expectEndsSoon([&] { orientOutward(soup); }, 8, kSoon);
+}
+
+/// Its open edges all meet in two points.
+TEST(CancelMesh, ClosingAStarEndsSoon) {
+  const TriangleMesh star = orientOutward(starMesh(20000)).mesh;
+  expectEndsSoon([&] { ClosedSolid(std::make_shared<const Solid>(star)); }, 8, kSoon);
+}
+
+TEST(CancelMesh, ClosingNeedlesEndsSoon) {
+  const TriangleMesh needles = orientOutward(needlesMesh(20000, 0.002)).mesh;
+  expectEndsSoon([&] { ClosedSolid(std::make_shared<const Solid>(needles)); }, 8, kSoon);
+}
+
+TEST(CancelMesh, OrientingRandomTrianglesEndsSoon) {
+  const TriangleMesh mesh = randomTrianglesMesh(3000);
+  expectEndsSoon([&] { orientOutward(mesh); }, 8, kSoon);
+}
+
+TEST(CancelMesh, TheSolidOfNestedShellsEndsSoon) {
+  const TriangleMesh shells = orientOutward(nestedMesh(1000)).mesh;
+  expectEndsSoon([&] { Solid solid(shells); }, 8, kSoon);
 }
 
 }  // namespace

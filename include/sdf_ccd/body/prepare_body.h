@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -59,6 +60,10 @@ struct BodyOptions {
   bool is_shared = false;
 
   std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
+
+  /// Time that the estimate of a body's cost and its preparation may take together, at any number of threads [s]. A body
+  /// that takes longer fails, by name, as do bodies of the same meshes; the others are prepared. Infinite: no limit.
+  double max_preparation_time = std::numeric_limits<double>::infinity();
 
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
   /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be

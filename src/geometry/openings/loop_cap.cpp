@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/infinity.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -101,6 +102,7 @@ std::vector<int> bridged(const std::vector<Vector3d>& vertices, const std::vecto
 }  // namespace
 
 LoopCap capLoop(const std::vector<Vector3d>& vertices, const std::vector<int>& loop) {
+  checkCancelled();
   LoopCap cap;
   triangulate(vertices, loop.size() > kMaxVertices ? shortened(vertices, loop, cap) : loop, cap);
   return cap;

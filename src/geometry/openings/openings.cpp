@@ -11,7 +11,6 @@
 #include "loop_cap.h"
 #include "reach_bound.h"
 #include "rim.h"
-#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -70,7 +69,6 @@ Openings findOpenings(const TriangleMesh& mesh) {
   openings.caps = extract(openings.caps, caps);  // without unused vertices
   ReachBound reach(check.tree(), kCrack * diagonal);
   for (const Vector3i& t : openings.caps.triangles) {
-    checkCancelled();
     openings.reach.push_back(reach.of(cornersOf(openings.caps.vertices, t)));
   }
   return openings;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdf_ccd/common/cancel.h"
+
 namespace sdf_ccd {
 
 double ReachBound::of(const Corners& t) {
@@ -12,6 +14,7 @@ double ReachBound::of(const Corners& t) {
 /// The distance from one triangle of the mesh is convex, so its largest value at the corners is a bound. For a sliver
 /// that bridges a crack, several triangles are equally near to its middle, and one of them is near to all of it.
 double ReachBound::boundByOne(const Corners& t) {
+  checkCancelled();
   const Vector3d center = centroid(t);
   const TriangleTree::ClosestPoint nearest = tree_.closestPoint(center);
   least_ = nearest.distance;

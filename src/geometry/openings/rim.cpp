@@ -5,6 +5,7 @@
 
 #include "geometry/edge_search.h"
 #include "geometry/mesh_edges.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -51,7 +52,9 @@ void Rim::mergeVertices(double tolerance) {
   std::map<int, int> target;  // vertices that are kept map to themselves, and are more than the tolerance apart
   std::vector<int> near;
   bool any = false;
+  const CancelPoint cancel;
   for (const int vertex : search.vertices()) {
+    cancel.check();
     const Vector3d& p = mesh_.vertices[vertex];
     search.find(p, tolerance, near);
     int nearest = vertex;
@@ -83,7 +86,9 @@ void Rim::splitEdges(double tolerance) {
   const EdgeSearch search = searchOf(mesh_, before);
   std::vector<std::vector<int>> through(before.size());
   std::vector<int> near;
+  const CancelPoint cancel;
   for (const int vertex : search.vertices()) {
+    cancel.check();
     search.find(mesh_.vertices[vertex], 0.5 * tolerance, near);
     for (const int i : near) {
       if (vertex != before[i].first.first && vertex != before[i].first.second) through[i].push_back(vertex);

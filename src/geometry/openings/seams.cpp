@@ -43,7 +43,9 @@ class SeamSearch {
       if (flat_at_.count(edge) > 0) offer(edge, 0.0);
     spread();
     std::optional<EdgeSearch> search;  // the other edges may be divided elsewhere
+    const CancelPoint cancel;
     for (const auto& [edge, triangles] : flat_at_) {
+      cancel.check();
       const auto is_open = [&](std::size_t triangle) { return !seams_.is_seam[triangle]; };
       if (near_.count(edge) > 0 || std::none_of(triangles.begin(), triangles.end(), is_open)) continue;
       if (!search) search.emplace(mesh_, edges);

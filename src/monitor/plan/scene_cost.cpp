@@ -170,7 +170,7 @@ SceneCost expectedCost(const SceneDescription& description, const ScenePlan& pla
     const BodyDescription& body = description.bodies[i];
     if (!body.failure.empty() || !(plan.needs[i].field || plan.needs[i].shell)) continue;
     try {
-      scene.add(estimate.of(body, plan.needs[i]));
+      scene.add(estimate.meshes()->withinTime(body, [&] { return estimate.of(body, plan.needs[i]); }));
     } catch (const std::exception&) {
       // Building the body will report the error.
     }

@@ -13,6 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kPreparationTime = 20.0;  // of a body [s]
 constexpr double kLongestCycle = 3600.0;  // transforms have to be kept for that long [s]
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
@@ -181,6 +182,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     if (root.empty() || root[0] != '/') reader.fail("resource_roots", "absolute paths of folders");
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
   parameters.scene = readScene(reader);
+  parameters.scene.max_preparation_time = reader.positive("max_preparation_time", kPreparationTime);
   if (reader.flag("cache", true)) {
     parameters.scene.cache_directory = reader.text("cache_directory", "");
     if (parameters.scene.cache_directory.empty()) parameters.scene.cache_directory = defaultCacheDirectory();
