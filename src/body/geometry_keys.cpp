@@ -1,6 +1,7 @@
 #include "body/geometry_keys.h"
 
-#include "common/weak_store.h"
+#include <atomic>
+
 #include "storage/content_hash.h"
 
 namespace sdf_ccd {
@@ -26,12 +27,25 @@ struct AppendSizes {
   }
 };
 
+WeakStore<TriangleMesh>& meshesInUse() {
+  static WeakStore<TriangleMesh> of_process;
+  return of_process;
+}
+
 }  // namespace
 
+std::shared_ptr<const TriangleMesh> sharedMesh(WeakStore<TriangleMesh>& store, const std::string& hash,
+                                               const std::shared_ptr<const TriangleMesh>& mesh) {
+  const std::shared_ptr<const TriangleMesh> kept = store.keep(hash, mesh);
+  return kept == mesh || areIdentical(*kept, *mesh) ? kept : nullptr;
+}
+
 const std::string& GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+  static std::atomic<std::uint64_t> others{0};
   Known& known = hashes_[mesh.get()];
   if (known.mesh.lock() == mesh && !known.hash.empty()) return known.hash;
   known = {mesh, contentHash(*mesh, {})};
+  if (!sharedMesh(meshesInUse(), known.hash, mesh)) known.hash += "/" + std::to_string(++others);
   return known.hash;
 }
 
@@ -64,11 +78,11 @@ std::string GeometryKeys::keyOf(const BodyDescription& body) {
 }
 
 void shareMeshes(std::vector<BodyDescription>& bodies) {
-  static WeakStore<TriangleMesh> of_process;
   for (BodyDescription& body : bodies) {
     for (GeometryDescription& geometry : body.geometry) {
       auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
-      if (mesh && *mesh) *mesh = of_process.keep(contentHash(**mesh, {}), *mesh);
+      if (!mesh || !*mesh) continue;
+      if (auto shared = sharedMesh(meshesInUse(), contentHash(**mesh, {}), *mesh)) *mesh = std::move(shared);
     }
   }
 }

@@ -5,11 +5,18 @@
 #include <unordered_map>
 #include <vector>
 
+#include "common/weak_store.h"
 #include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
 
-/// Keys of geometry: equal for equal content. Meshes are hashed once, as long as they are referenced elsewhere.
+/// The mesh of equal content that is in use elsewhere, or else this one, which is found from now on; null if the store
+/// has another mesh under that hash.
+std::shared_ptr<const TriangleMesh> sharedMesh(WeakStore<TriangleMesh>& store, const std::string& hash,
+                                               const std::shared_ptr<const TriangleMesh>& mesh);
+
+/// Keys of geometry: equal for equal content, and only then. Meshes are hashed once, as long as they are referenced
+/// elsewhere, and compared with the one in use under the same hash.
 class GeometryKeys {
  public:
   /// Of a body in its own frame.

@@ -1,32 +1,70 @@
 #include "storage/content_hash.h"
 
-#include <xxhash.h>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
 
-#include <cstdio>
+#include <openssl/evp.h>
 
 namespace sdf_ccd {
 namespace {
 
-std::uint64_t hash64(const TriangleMesh& mesh, const std::vector<double>& numbers, std::uint64_t seed) {
-  XXH64_state_t* state = XXH64_createState();
-  XXH64_reset(state, seed);
-  const std::uint64_t counts[] = {mesh.vertices.size(), mesh.triangles.size(), numbers.size()};
-  XXH64_update(state, counts, sizeof counts);
-  XXH64_update(state, mesh.vertices.data(), mesh.vertices.size() * sizeof(Vector3d));
-  XXH64_update(state, mesh.triangles.data(), mesh.triangles.size() * sizeof(Vector3i));
-  XXH64_update(state, numbers.data(), numbers.size() * sizeof(double));
-  const std::uint64_t hash = XXH64_digest(state);
-  XXH64_freeState(state);
-  return hash;
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
+  }
+
+  void add(const void* data, std::size_t bytes) { require(EVP_DigestUpdate(context_.get(), data, bytes) == 1); }
+
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.data(), values.size() * sizeof(T));
+  }
+
+  std::string digits() {
+    unsigned char digest[EVP_MAX_MD_SIZE];
+    unsigned bytes = 0;
+    require(EVP_DigestFinal_ex(context_.get(), digest, &bytes) == 1);
+    std::string text;
+    unsigned left = 0, bits = 0;  // of the digest that are not in the text yet
+    for (unsigned i = 0; i < bytes; ++i) {
+      left = left << 8 | digest[i];
+      for (bits += 8; bits >= 5; bits -= 5) text += kDigits[left >> (bits - 5) & 31];
+    }
+    return bits > 0 ? text + kDigits[left << (5 - bits) & 31] : text;
+  }
+
+ private:
+  static constexpr char kDigits[] = "0123456789abcdefghijklmnopqrstuv";
+
+  static void require(bool is_done) {
+    if (!is_done) throw std::runtime_error("SHA-256 is not available from libcrypto");
+  }
+
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+template <class T>
+bool areIdentical(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 }  // namespace
 
 std::string contentHash(const TriangleMesh& mesh, const std::vector<double>& numbers) {
-  char digits[40];
-  std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(hash64(mesh, numbers, 1)),
-                static_cast<unsigned long long>(hash64(mesh, numbers, 2)));
-  return digits;
+  Sha256 hash;
+  const std::uint64_t counts[] = {mesh.vertices.size(), mesh.triangles.size(), numbers.size()};
+  hash.add(counts, sizeof counts);
+  hash.add(mesh.vertices);
+  hash.add(mesh.triangles);
+  hash.add(numbers);
+  return hash.digits();
+}
+
+bool areIdentical(const TriangleMesh& a, const TriangleMesh& b) {
+  return areIdentical(a.vertices, b.vertices) && areIdentical(a.triangles, b.triangles);
 }
 
 }  // namespace sdf_ccd
