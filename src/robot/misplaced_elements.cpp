@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kParents = {{"link", {"robot"
                                                                {"box", {"geometry"}},
                                                                {"sphere", {"geometry"}},
                                                                {"cylinder", {"geometry"}},
+                                                               {"capsule", {"geometry"}},
                                                                {"mesh", {"geometry"}},
                                                                {"origin", {"collision", "inertial", "joint", "visual"}},
                                                                {"parent", {"joint"}},
@@ -93,7 +94,7 @@ std::string whyIgnored(const XMLElement& element, const std::string& parent) {
 
 /// Whether an element with this name holds a shape, or is one.
 bool isOfShape(const std::string& name_in_lower_case) {
-  static const std::set<std::string> names = {"collision", "geometry", "box", "sphere", "cylinder", "mesh"};
+  static const std::set<std::string> names = {"collision", "geometry", "box", "sphere", "cylinder", "capsule", "mesh"};
   return names.count(name_in_lower_case) > 0;
 }
 

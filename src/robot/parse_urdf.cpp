@@ -1,8 +1,6 @@
 #include "parse_urdf.h"
 
-#include <map>
 #include <mutex>
-#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -14,9 +12,9 @@
 
 #include "common/number_text.h"
 #include "common/text_limits.h"
-#include "empty_visuals.h"
-#include "joint_kind.h"
+#include "joint_tree.h"
 #include "misplaced_elements.h"
+#include "readable_link.h"
 #include "unexpanded_macros.h"
 #include "xml_error.h"
 
@@ -51,8 +49,22 @@ class MessageCollector : public console_bridge::OutputHandler {
 
 std::mutex handler_mutex;  // one output handler for the whole process
 
-/// The document as written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents;
-/// and without empty visuals.
+/// Changes a robot so that urdfdom reads all that matters here.
+void makeRobotReadable(tinyxml2::XMLElement& robot, std::vector<std::string>& warnings) {
+  constexpr std::size_t kMaxLinks = 10'000;
+  std::size_t links = 0;
+  for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) ++links;
+  if (links > kMaxLinks) {
+    throw std::runtime_error("it has " + std::to_string(links) + " links, more than " + std::to_string(kMaxLinks));
+  }
+  if (!robot.Attribute("name")) robot.SetAttribute("name", "robot");
+  robot.DeleteAttribute("version");  // the parser refuses those that it does not know
+  while (tinyxml2::XMLElement* material = robot.FirstChildElement("material")) robot.DeleteChild(material);
+  for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) makeReadable(*link);
+  makeTree(robot, warnings);
+}
+
+/// The document as written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents.
 std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
   requireXmlSize(xml);
   const std::string text = soundText(xml);
@@ -62,8 +74,7 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
   if (tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
     const std::vector<std::string> misplaced = misplacedElements(*robot);
     warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());
-    for (auto link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link"))
-      removeEmptyVisuals(*link);
+    makeRobotReadable(*robot, warnings);
   }
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
@@ -71,11 +82,17 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
 }
 
 std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<std::string>& warnings) {
+  std::string text;
+  try {
+    text = wellFormed(xml, warnings);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("the URDF cannot be parsed: ") + error.what());
+  }
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
   std::shared_ptr<urdf::ModelInterface> model;
   try {
-    model = urdf::parseURDF(wellFormed(xml, warnings));
+    model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
     const std::string errors = collector.errors().empty() ? "" : collector.errors() + "; ";
     throw std::runtime_error("the URDF cannot be parsed: " + errors + error.what());
@@ -85,51 +102,6 @@ std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<
     throw std::runtime_error("the URDF cannot be parsed: " + reason);
   }
   return model;
-}
-
-/// urdfdom accepts these, but no joint position follows from them.
-void checkJoint(const urdf::ModelInterface& model, const urdf::Joint& joint) {
-  if (hasPosition(joint) && joint.axis.x == 0.0 && joint.axis.y == 0.0 && joint.axis.z == 0.0) {
-    throw std::runtime_error("joint " + joint.name + ": its axis is 0 0 0");
-  }
-  if (joint.type == urdf::Joint::UNKNOWN) throw std::runtime_error("joint " + joint.name + ": unknown type");
-  constexpr std::size_t kMostLeaders = 100;  // all positions are computed through them, one after another
-  std::set<std::string> seen = {joint.name};
-  for (const urdf::Joint* follower = &joint; follower->mimic;) {
-    const std::string& leader = follower->mimic->joint_name;
-    const auto found = model.joints_.find(leader);
-    if (found == model.joints_.end()) {
-      throw std::runtime_error("joint " + follower->name + " mimics " + leader + ", which does not exist");
-    }
-    if (!seen.insert(leader).second) throw std::runtime_error("joint " + joint.name + " mimics itself");
-    if (seen.size() > kMostLeaders)
-      throw std::runtime_error("joint " + joint.name + " mimics a joint that mimics another, and so on, more than " +
-                               std::to_string(kMostLeaders) + " times");
-    follower = found->second.get();
-  }
-}
-
-/// urdfdom accepts links with several parent joints, and loops apart from the root, whose links it drops.
-void checkTree(const urdf::ModelInterface& model) {
-  std::map<std::string, std::string> joint_above;  // by child link
-  for (const auto& [name, joint] : model.joints_) {
-    const auto [above, is_new] = joint_above.emplace(joint->child_link_name, name);
-    if (is_new) continue;
-    throw std::runtime_error("link " + above->first + " is the child of two joints, " + above->second + " and " + name);
-  }
-  std::set<std::string> reached;
-  std::vector<const urdf::Link*> open = {model.getRoot().get()};
-  while (!open.empty()) {
-    const urdf::Link* link = open.back();
-    open.pop_back();
-    reached.insert(link->name);
-    for (const auto& child : link->child_links) open.push_back(child.get());
-  }
-  for (const auto& link : model.links_) {
-    if (reached.count(link.first) > 0) continue;
-    throw std::runtime_error("no chain of joints leads from the root link " + model.getRoot()->name + " to link " +
-                             link.first + ": it is in a loop, or below one");
-  }
 }
 
 /// Some URDFs have limits in the wrong order; without this every position would be beyond a limit.
@@ -145,13 +117,6 @@ void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
 
 std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vector<std::string>& warnings) {
   const auto model = parse(xml, warnings);
-  constexpr std::size_t kMaxLinks = 10'000;
-  if (model->links_.size() > kMaxLinks) {
-    throw std::runtime_error("the URDF has " + std::to_string(model->links_.size()) + " links, more than " +
-                             std::to_string(kMaxLinks));
-  }
-  for (const auto& joint : model->joints_) checkJoint(*model, *joint.second);
-  checkTree(*model);
   for (const auto& joint : model->joints_) orderLimits(*joint.second, warnings);
   return model;
 }
@@ -159,7 +124,11 @@ std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vec
 std::string urdfErrors(const std::string& xml) {
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
-  urdf::parseURDF(xml);
+  try {
+    urdf::parseURDF(xml);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
   return collector.errors();
 }
 

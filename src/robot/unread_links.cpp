@@ -1,13 +1,14 @@
 #include "unread_links.h"
 
+#include <set>
 #include <stdexcept>
 
 #include <tinyxml2.h>
 
 #include "common/text_limits.h"
-#include "empty_visuals.h"
 #include "misplaced_elements.h"
 #include "parse_urdf.h"
+#include "readable_link.h"
 #include "xml_error.h"
 
 namespace sdf_ccd {
@@ -37,18 +38,23 @@ std::map<std::string, std::string> unreadLinks(const urdf::ModelInterface& model
     throw std::runtime_error("the URDF cannot be parsed: " + xmlError(document));
   }
   std::map<std::string, std::string> reasons;
+  std::set<std::string> names;
   XMLElement* robot = document.FirstChildElement("robot");
   for (auto link = robot ? robot->FirstChildElement("link") : nullptr; link; link = link->NextSiblingElement("link")) {
-    const char* name = link->Attribute("name");
-    const auto read = name ? model.getLink(name) : nullptr;
+    const std::string line = "line " + std::to_string(link->GetLineNum()) + " of the URDF: ";
+    const std::string name = linkName(*link);
+    const auto read = model.getLink(name);
     if (!read) continue;
+    if (!names.insert(name).second) {
+      reasons[name] = line + "a second link has this name";
+      continue;
+    }
     if (const std::string misplaced = misplacedShape(*link); !misplaced.empty()) reasons[name] = misplaced;
-    removeEmptyVisuals(*link);  // as in the text that the model was read from
+    makeReadable(*link);  // as in the text that the model was read from
     const std::size_t written = countChildren(*link, "collision");
     if (read->collision_array.size() == written) continue;
-    reasons[name] = "line " + std::to_string(link->GetLineNum()) +
-                    " of the URDF: " + std::to_string(written - read->collision_array.size()) + " of " +
-                    std::to_string(written) + " collision elements cannot be read: " + parserErrors(*link);
+    reasons[name] = line + std::to_string(written - read->collision_array.size()) + " of " + std::to_string(written) +
+                    " collision elements cannot be read: " + parserErrors(*link);
   }
   return reasons;
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,7 +13,6 @@ namespace sdf_ccd {
 namespace {
 
 using test::kArm;
-using test::twoLinks;
 
 std::string failure(const std::string& xml, const std::string& source = {}) {
   return test::failureOf([&] { RobotModel(xml, source); });
@@ -23,58 +23,170 @@ TEST(RobotModel, ParserFailuresGiveTheReason) {
   EXPECT_NE(failure("").find("cannot be parsed"), std::string::npos);
   EXPECT_NE(failure("<robot name='r'><link").find("cannot be parsed"), std::string::npos);
   EXPECT_NE(failure("<sdf/>").find("robot"), std::string::npos);
-  EXPECT_NE(failure("<robot name='r'><link name='twin'/><link name='twin'/></robot>").find("twin"), std::string::npos);
-  EXPECT_NE(failure("<robot name='r'><link name='a'/><link name='b'/></robot>").find("root"), std::string::npos);
-  EXPECT_NE(failure(twoLinks("<joint name='j' type='bendy'><parent link='a'/><child link='b'/></joint>")).find("bendy"),
-            std::string::npos);
+  EXPECT_NE(failure("<robot name='r'/>").find("cannot be parsed"), std::string::npos);
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(failure("<robot name='r'><link", "arm.urdf").find("arm.urdf: the URDF cannot be parsed: "), 0U);
 }
 
-TEST(RobotModel, JointsWithoutKinematicsAreRefused) {
-  const auto joint = [](const std::string& rest) {
-    return twoLinks("<joint name='j' type='continuous'><parent link='a'/><child link='b'/>" + rest + "</joint>");
-  };
-  EXPECT_NE(failure(joint("<axis xyz='0 0 0'/>")).find("axis is 0 0 0"), std::string::npos);
-  EXPECT_NE(failure(joint("<mimic joint='k'/>")).find("mimics k, which does not exist"), std::string::npos);
-  EXPECT_NE(failure(joint("<mimic joint='j'/>")).find("mimics itself"), std::string::npos);
+const std::string kFloats = ": it is taken to float, so that it is where tf has it";
+
+std::string jointText(const std::string& name, const std::string& type, const std::string& parent,
+                      const std::string& child, const std::string& rest = "") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child + "'/>" +
+         rest + "</joint>";
+}
+
+/// A robot of three links whose second joint is the given one; and a fourth link, which is fine.
+RobotModel withJoint(const std::string& joint) {
+  return RobotModel("<robot name='r'><link name='a'/><link name='b'/><link name='c'/>" +
+                    jointText("good", "continuous", "a", "b") + joint + "</robot>");
+}
+
+TEST(RobotModel, AJointWithoutKinematicsFloats) {
+  for (const auto& [type, rest, why] :
+       {std::array<std::string, 3>{"continuous", "<axis xyz='0 0 0'/>", "its axis is 0 0 0"},
+        {"bendy", "", "bendy"},
+        {"continuous", "<axis xyz='0 0 up'/>", "up"},
+        {"fixed", "<origin xyz='1 2'/>", "1 2"},
+        {"revolute", "<limit lower='low' upper='1' effort='1' velocity='1'/>", "low"},
+        {"continuous", "<mimic joint='good' multiplier='x'/>", "x"},
+        {"continuous", "<mimic/>", "mimic"}}) {
+    const RobotModel robot = withJoint(jointText("bad", type, "b", "c", rest));
+    EXPECT_EQ(robot.links().size(), 3U);
+    EXPECT_EQ(robot.jointAbove(robot.find("c")).type, urdf::Joint::FLOATING) << rest;
+    EXPECT_EQ(robot.jointAbove(robot.find("b")).type, urdf::Joint::CONTINUOUS) << rest;
+    ASSERT_EQ(robot.warnings().size(), 1U) << rest;
+    EXPECT_EQ(robot.warnings()[0].find("joint bad: "), 0U) << robot.warnings()[0];
+    EXPECT_NE(robot.warnings()[0].find(why), std::string::npos) << robot.warnings()[0];
+    EXPECT_NE(robot.warnings()[0].find(kFloats), std::string::npos) << robot.warnings()[0];
+    EXPECT_EQ(robot.reach("a", "c").farthest, HUGE_VAL) << "nothing may follow from the joint";
+    EXPECT_FALSE(robot.rigidlyJoined("b", "c") || robot.adjacent("b", "c"));
+  }
+}
+
+/// Efforts, calibrations and the like say nothing about where links are.
+TEST(RobotModel, WhatNobodyReadsCannotBeWrong) {
+  for (const std::string& rest :
+       {"<limit lower='-1' upper='1'/>", "<limit lower='-1' upper='1' effort='strong' velocity='quick'/>",
+        "<limit lower='-1' upper='1'/><dynamics/><safety_controller/><calibration rising='x'/>"}) {
+    const RobotModel robot = withJoint(jointText("j", "revolute", "b", "c", rest));
+    EXPECT_TRUE(robot.warnings().empty()) << rest;
+    EXPECT_EQ(robot.jointAbove(robot.find("c")).limits->upper, 1.0);
+  }
+  const RobotModel robot = withJoint(jointText("j", "revolute", "b", "c"));
+  EXPECT_EQ(robot.jointAbove(robot.find("c")).type, urdf::Joint::REVOLUTE);
+  EXPECT_EQ(failure("<robot version='1.2'><material name='red'/><link name='a'><visual><geometry><sphere radius='1'/>"
+                    "</geometry><material name='blue'/></visual></link></robot>"),
+            "");
+}
+
+TEST(RobotModel, AMimicJointWithoutLeaderIsOneOfItsOwn) {
+  for (const auto& [leader, why] :
+       {std::pair<std::string, std::string>{"k", "k, which does not exist"}, {"j", "itself"}}) {
+    const RobotModel robot = withJoint(jointText("j", "continuous", "b", "c", "<mimic joint='" + leader + "'/>"));
+    EXPECT_EQ(robot.warnings(),
+              std::vector<std::string>{"joint j mimics " + why + ": it is taken for a joint of its own"});
+    EXPECT_FALSE(robot.jointAbove(robot.find("c")).mimic);
+    EXPECT_EQ(robot.position(robot.jointAbove(robot.find("c")), {{"j", 0.3}}), 0.3);
+  }
+  // Two that follow each other, and one that follows a joint without a position.
+  const RobotModel two(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/><link name='e'/>" +
+      jointText("j", "continuous", "a", "b", "<mimic joint='k'/>") +
+      jointText("k", "continuous", "b", "c", "<mimic joint='j' multiplier='2'/>") +
+      jointText("f", "floating", "a", "d") + jointText("l", "continuous", "a", "e", "<mimic joint='f'/>") + "</robot>");
+  EXPECT_EQ(two.warnings(),
+            (std::vector<std::string>{"joint j mimics itself: it is taken for a joint of its own",
+                                      "joint l mimics f, which has no position: it is taken for a joint of its own"}));
+  EXPECT_EQ(two.position(two.jointAbove(two.find("c")), {{"j", 0.2}}), 0.4);
 }
 
 /// Each position is computed along the whole chain: thousands would take seconds a state.
-TEST(RobotModel, LongChainsOfMimicJointsAreRefused) {
+TEST(RobotModel, LongChainsOfMimicJointsAreCut) {
   const auto chain = [](int length) {
     std::string urdf = "<robot name='r'><link name='l0'/>";
     for (int i = 1; i <= length; ++i) {
       const std::string number = std::to_string(i), before = std::to_string(i - 1);
-      urdf += "<link name='l" + number + "'/><joint name='j" + number + "' type='continuous'><parent link='l" + before +
-              "'/><child link='l" + number + "'/>" + (i > 1 ? "<mimic joint='j" + before + "'/>" : "") + "</joint>";
+      urdf += "<link name='l" + number + "'/>" +
+              jointText("j" + number, "continuous", "l" + before, "l" + number,
+                        i > 1 ? "<mimic joint='j" + before + "'/>" : "");
     }
-    return urdf + "</robot>";
+    return RobotModel(urdf + "</robot>").warnings();
   };
-  EXPECT_NO_THROW(RobotModel(chain(100)));
-  EXPECT_NE(failure(chain(102)).find("mimics a joint that mimics another, and so on, more than 100 times"),
-            std::string::npos);
+  EXPECT_TRUE(chain(100).empty());
+  EXPECT_EQ(chain(102), std::vector<std::string>{"joint j101 mimics a joint that mimics another, and so on, more than "
+                                                 "100 times: it is taken for a joint of its own"});
 }
 
-TEST(RobotModel, JointsThatAreNoTreeAreRefused) {
-  const auto joint = [](const std::string& name, const std::string& parent, const std::string& child) {
-    return "<joint name='" + name + "' type='fixed'><parent link='" + parent + "'/><child link='" + child +
-           "'/></joint>";
+TEST(RobotModel, LinksThatNoChainOfJointsLeadsToFloat) {
+  const auto fixed = [](const std::string& name, const std::string& parent, const std::string& child) {
+    return jointText(name, "fixed", parent, child);
   };
-  const auto refusal = [](const std::string& content) { return failure("<robot name='r'>" + content + "</robot>"); };
+  const auto read = [](const std::string& content) { return RobotModel("<robot name='r'>" + content + "</robot>"); };
+  const auto isFloating = [](const RobotModel& robot, const std::string& link) {
+    return robot.jointAbove(robot.find(link)).type == urdf::Joint::FLOATING;
+  };
   const std::string links = "<link name='a'/><link name='b'/><link name='c'/>";
-  // urdfdom takes c for the root and drops the other links.
-  EXPECT_EQ(refusal(links + joint("there", "a", "b") + joint("back", "b", "a")),
-            "no chain of joints leads from the root link c to link a: it is in a loop, or below one");
-  EXPECT_EQ(refusal(links + joint("to_b", "a", "b") + joint("to_c", "a", "c") + joint("closing", "b", "c")),
-            "link c is the child of two joints, closing and to_c");
+
+  const RobotModel loop = read(links + fixed("there", "a", "b") + fixed("back", "b", "a"));
+  EXPECT_EQ(loop.links().size(), 3U);
+  EXPECT_EQ(loop.root(), "a") << "two links are below it, none below c";
+  EXPECT_TRUE(isFloating(loop, "c"));
+  EXPECT_TRUE(loop.rigidlyJoined("a", "b"));
+  EXPECT_EQ(loop.warnings(),
+            (std::vector<std::string>{"joint back is left out: it closes a loop",
+                                      "no chain of joints leads from the root link a to link c" + kFloats}));
+
+  const RobotModel two = read(links + fixed("to_b", "a", "b") + fixed("to_c", "a", "c") + fixed("closing", "b", "c"));
+  EXPECT_TRUE(isFloating(two, "c"));
+  EXPECT_TRUE(two.rigidlyJoined("a", "b"));
+  EXPECT_EQ(two.warnings(), std::vector<std::string>{"link c is the child of two joints, to_c and closing" + kFloats});
+
+  const RobotModel astray = read(links + fixed("to_b", "a", "b") + fixed("to_d", "a", "d") + fixed("of_d", "d", "c") +
+                                 fixed("self", "b", "b") + "<joint name='none' type='fixed'/>");
+  EXPECT_TRUE(isFloating(astray, "c"));
+  EXPECT_EQ(astray.warnings(),
+            (std::vector<std::string>{
+                "joint to_d is left out: link d does not exist", "joint of_d is left out: link d does not exist",
+                "joint self is left out: it joins link b to itself", "joint none is left out: it has no parent link",
+                "no chain of joints leads from the root link a to link c" + kFloats}));
+
   // 2^40 paths lead to the last link.
   std::string ladder = "<link name='l0'/>";
   for (int i = 1; i <= 40; ++i) {
     const std::string from = "l" + std::to_string(i - 1), to = "l" + std::to_string(i);
-    ladder += "<link name='" + to + "'/>" + joint("p" + to, from, to) + joint("q" + to, from, to);
+    ladder += "<link name='" + to + "'/>" + fixed("p" + to, from, to) + fixed("q" + to, from, to);
   }
-  EXPECT_NE(refusal(ladder).find(" is the child of two joints, "), std::string::npos);
+  const std::vector<std::string> many = read(ladder).warnings();
+  ASSERT_EQ(many.size(), 21U);
+  EXPECT_EQ(many.back(), "and 20 more joints or links like these");
+}
+
+/// A tail below a loop stays whole.
+TEST(RobotModel, ALoopIsCutOnce) {
+  const RobotModel robot("<robot name='r'><link name='tail'/><link name='a'/><link name='b'/><link name='c'/>" +
+                         jointText("to_tail", "fixed", "c", "tail") + jointText("ab", "fixed", "a", "b") +
+                         jointText("bc", "fixed", "b", "c") + jointText("ca", "fixed", "c", "a") + "</robot>");
+  EXPECT_EQ(robot.links().size(), 4U);
+  EXPECT_EQ(robot.warnings().size(), 1U);
+  EXPECT_TRUE(robot.rigidlyJoined("tail", "a"));
+}
+
+TEST(RobotModel, NamesThatAreMissingOrTwiceCostNoOther) {
+  const RobotModel robot("<robot name='r'><link name='a'/><link name='b'/><link name='b'/><link/>" +
+                         jointText("j", "fixed", "a", "b") + "</robot>");
+  EXPECT_EQ(robot.links().size(), 3U);
+  EXPECT_EQ(robot.unread().at("b"), "line 1 of the URDF: a second link has this name");
+  EXPECT_EQ(robot.warnings(),
+            (std::vector<std::string>{
+                "link b: a second link has this name, and is left out",
+                "no chain of joints leads from the root link a to link unnamed link of line 1" + kFloats}));
+  const RobotModel twice = withJoint(jointText("good", "continuous", "b", "c"));
+  EXPECT_EQ(twice.warnings(),
+            std::vector<std::string>{"the joint above link c has the name of another joint, good: it is named joint of "
+                                     "link c"});
+  EXPECT_EQ(withJoint("<joint type='fixed'><parent link='b'/><child link='c'/></joint>").warnings(),
+            std::vector<std::string>{"the joint above link c has no name: it is named joint of link c"});
 }
 
 TEST(RobotModel, TextThatIsCutShortOrBrokenIsRefused) {

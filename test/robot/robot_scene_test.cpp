@@ -1,7 +1,9 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
 #include <array>
+#include <cmath>
 #include <map>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -70,7 +72,7 @@ TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
   const Described described =
       describe("<robot name='r'>" + link("good", cube) + link("short", cube + box("1 1")) +
                link("nan", box("1 1 1", "nan 0 0")) +
-               link("capsule", "<collision><geometry><capsule radius='1' length='2'/></geometry></collision>") +
+               link("capsule", "<collision><geometry><capsule radius='1'/></geometry></collision>") +
                link("empty", "<collision/>") + link("heavy", "<inertial><mass value='much'/></inertial>" + cube) +
                link("frame", "<visual><geometry><box size='1 1'/></geometry></visual>") +
                joint("good", "short", "floating", "0 0 0") + joint("good", "nan", "floating", "0 0 0") +
@@ -85,7 +87,49 @@ TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
   EXPECT_NE(failures["nan"].find("nan"), std::string::npos);
   EXPECT_NE(failures["capsule"].find("capsule"), std::string::npos);
   EXPECT_NE(failures["empty"].find("1 of 1 collision elements"), std::string::npos);
-  EXPECT_NE(failures["heavy"].find("much"), std::string::npos);
+  EXPECT_EQ(failures["heavy"], "") << "no shape depends on its mass";
+}
+
+/// Radius 0.1, 0.6 long between the centres, turned from z to x, about (1, 2, 3).
+TEST(RobotScene, ACapsuleIsACylinderAndTwoSpheres) {
+  const std::string shape = "<geometry><capsule radius='0.1' length='0.6'/></geometry>";
+  const Described described = describe(
+      "<robot name='r' version='1.2'>" +
+      link("arm", "<visual>" + shape + "</visual>" + box("0.1 0.1 0.1") +
+                      "<collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>" + shape + "</collision>") +
+      link("ball", "<collision><geometry><capsule radius='0.1' length='0'/></geometry></collision>") +
+      link("turned", "<collision><geometry><capsule radius='0.1' length='-0.6'/></geometry></collision>") +
+      joint("arm", "ball", "floating", "0 0 0") + joint("arm", "turned", "floating", "0 0 0") + "</robot>");
+  ASSERT_EQ(described.scene.bodies.size(), 3u);
+  const BodyDescription& arm = described.scene.bodies[0];
+  EXPECT_EQ(arm.failure, "");
+  EXPECT_TRUE(described.warnings.empty());
+  ASSERT_EQ(arm.geometry.size(), 4u);
+  // The truth: the distance to the segment between the centres, less the radius.
+  const auto truth = [](const Vector3d& p) {
+    const double x = std::max(0.7, std::min(1.3, p.x()));
+    return (p - Vector3d(x, 2.0, 3.0)).norm() - 0.1;
+  };
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> side(-0.6, 0.6);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = Vector3d(1.0, 2.0, 3.0) + Vector3d(side(random), side(random) / 3.0, side(random) / 3.0);
+    double distance = HUGE_VAL;
+    for (std::size_t g = 1; g < arm.geometry.size(); ++g) {
+      const Vector3d p_G = arm.geometry[g].X_BG.inverse() * p;
+      distance = std::min(distance, signedDistance(std::get<Primitive>(arm.geometry[g].shape), p_G));
+    }
+    EXPECT_EQ(distance < 0.0, truth(p) < 0.0);
+    if (truth(p) > 0.0) {
+      EXPECT_NEAR(distance, truth(p), 1e-12);
+    } else {
+      ++inside;
+    }
+  }
+  EXPECT_GT(inside, 100);
+  ASSERT_EQ(described.scene.bodies[1].geometry.size(), 1u);
+  EXPECT_NE(described.scene.bodies[2].failure.find("1 of 1 collision elements cannot be read"), std::string::npos);
 }
 
 TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {

@@ -21,8 +21,8 @@ using JointPoses = std::map<std::string, Isometry3d>;
 class RobotModel {
  public:
   /// @param source  where the text is from, for errors; may be empty.
-  /// @throws std::runtime_error, with the source and the parser's reason, if the text is no URDF; also for a joint
-  /// whose axis is zero or that mimics a missing joint or itself.
+  /// What is wrong with one joint or link costs no other: the joint floats or follows none, as warnings() tell.
+  /// @throws std::runtime_error, with the source and the parser's reason, if the text is no URDF.
   explicit RobotModel(const std::string& urdf_xml, const std::string& source = {});
 
   /// As the parser has read it.

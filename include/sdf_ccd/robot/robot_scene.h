@@ -49,7 +49,7 @@ struct Srdf {
 
 /// Reads `disable_collisions`, `disable_default_collisions`, `enable_collisions` and `virtual_joint`. As in MoveIt, a
 /// pair that is both disabled and enabled is disabled. Beyond MoveIt, links of the first three may be named by
-/// patterns (* for any text, ? for any character).
+/// patterns (* for any text, ? for any character). Elements without names are ignored, or enable all: Srdf::warnings.
 /// @param source  where the text is from, for errors; may be empty.
 /// @throws std::runtime_error, with source, line and reason, if the text is no SRDF.
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});
