@@ -14,6 +14,7 @@
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "surface_crossing.h"
+#include "untestable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -66,15 +67,11 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
   if (body_a.is_world && body_b.is_world) return;
   const bool a_shell = body_a.shell->size() > 0, b_shell = body_b.shell->size() > 0;
-  const bool checkable = body_a.failure.empty() && body_b.failure.empty();
   PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
-  if (checkable && !pair.a_shell_b_field && !pair.b_shell_a_field) {
-    throw std::invalid_argument("pair " + pairName(body_a.name, body_b.name) +
-                                ": neither has a shell, as they hold half-spaces or voxels; if both are of the "
-                                "world, say so (Body::is_world)");
+  if (pair.isTestable()) {  // witnesses alone prove nothing
+    pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
+    pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
   }
-  pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
-  pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
   scene.pairs.push_back(pair);
 }
 
@@ -108,6 +105,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   }
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));
+  warnOfUntestable(scene);
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
   setTotals(scene);
   scene.build_seconds = secondsSince(start);
@@ -126,6 +124,7 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   for (int a = 0; a < static_cast<int>(bodies.size()); ++a)
     for (int b = a + 1; b < static_cast<int>(bodies.size()); ++b) addPair(bodies, a, b, scene);
   scene.bodies = BodyList(std::move(bodies));
+  warnOfUntestable(scene);
   scene.motion_margin = scene.motion_error = motion_margin;
   setTotals(scene);
   return scene;

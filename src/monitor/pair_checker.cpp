@@ -8,6 +8,7 @@
 #include "pair_result.h"
 #include "pose_rounding.h"
 #include "surface_crossing.h"
+#include "untestable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -48,6 +49,7 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
     forget();
     return because(why);
   }
+  if (!pair_.isTestable()) return because(kNotTestable);
   if (!roles_.areBuilt()) return because("its fields and shells were not built");
   return true;
 }

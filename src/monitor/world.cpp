@@ -15,6 +15,7 @@
 #include "prepared_bodies.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_crossing.h"
+#include "untestable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -221,6 +222,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   const std::vector<PreparedBody*> prepared = impl_->prepareAll(description, plan, keys, *pool, progress, *snapshot);
   Scene scene = plannedScene(description, plan, impl_->options);
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
+  if (const std::string warning = warnOfUntestable(scene); !warning.empty()) snapshot->warnings.push_back(warning);
   setTotals(scene);
   scene.build_seconds = secondsSince(start);
   impl_->bodies.dropUnused(snapshot->version);

@@ -64,18 +64,18 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   BodyDescription map = body("map", meshShape(boxMesh({1, 1, 1})), true);
   map.geometry[0].watertight_voxels = true;
   const ScenePlan plan = planScene({{map, body("arm", kBall), body("ground", ground())}, {}});
-  ASSERT_EQ(plan.pairs.size(), 2u);  // map – arm, arm – ground
+  ASSERT_EQ(plan.pairs.size(), 3u);  // map – arm, map – ground, arm – ground
   EXPECT_FALSE(plan.pairs[0].a_shell_b_field);
   EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
-  EXPECT_TRUE(plan.pairs[1].a_shell_b_field);
-  EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
+  EXPECT_FALSE(plan.pairs[1].isTestable());
+  EXPECT_TRUE(plan.pairs[2].a_shell_b_field);
+  EXPECT_FALSE(plan.pairs[2].b_shell_a_field);
   EXPECT_EQ(which(plan, &BodyNeeds::shell), (std::vector<bool>{false, true, false}));
   // Voxels may lie wholly inside the arm: its field at their witness points shows that.
   EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
   EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
   EXPECT_EQ(which(plan, &BodyNeeds::witnesses), (std::vector<bool>{true, false, false}));
   EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{true, true, true}));
-  EXPECT_EQ(reasonOf(plan, "pair map - ground"), "neither has a surface that can be sampled");
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
 }
 

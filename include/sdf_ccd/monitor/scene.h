@@ -24,6 +24,9 @@ struct PlannedPair {
   bool a_witnesses_b_field = false;  ///< A has no shell: one point of each of its components tells whether that lies
                                      ///< wholly inside B (design §3.15)
   bool b_witnesses_a_field = false;
+
+  /// Whether there is any test of the pair; without one it is NOT_CHECKED.
+  bool isTestable() const { return a_shell_b_field || b_shell_a_field || a_witnesses_b_field || b_witnesses_a_field; }
 };
 
 /// Why something is left out.
@@ -72,14 +75,16 @@ struct PlanOptions {
 ///
 /// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
 /// same frame, or of a body without geometry; fields and shells that no pair uses; shells of bodies with a half-space
-/// or a voxel map among their geometry (these cannot be covered with points), and pairs of two such bodies. A body that
-/// is one large primitive (a table, a wall) only has a field against bodies too small to contain it: their shells
-/// against its exact field detect every contact of the surfaces. If it is a box and edges are sampled separately, its
-/// points on edges are kept: with them, contacts are detected to the edge gap instead of the spacing. All others are
-/// tested in both roles. A pair with a body that cannot be checked stays, requires nothing to be built, and is
-/// NOT_CHECKED; but if that body is a tile of a map (BodyDescription::map), which is still to come, the other body is
-/// prepared for it. An allowed pair may name bodies that the scene does not have (an SRDF's links without collision
-/// geometry).
+/// or a voxel map among their geometry (these cannot be covered with points). A body that is one large primitive (a
+/// table, a wall) only has a field against bodies too small to contain it: their shells against its exact field detect
+/// every contact of the surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with
+/// them, contacts are detected to the edge gap instead of the spacing. All others are tested in both roles.
+///
+/// No pair is left out because it cannot be tested. A pair of two bodies without a shell (an attached map and a map or
+/// a half-space of the world) stays, and is NOT_CHECKED; Scene::warnings name it. So is a pair with a body that cannot
+/// be checked, which requires nothing to be built; but if that body is a tile of a map (BodyDescription::map), which is
+/// still to come, the other body is prepared for it. An allowed pair may name bodies that the scene does not have (an
+/// SRDF's links without collision geometry).
 /// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
@@ -117,10 +122,10 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
 /// @param reasons  per pair: why it is removed; empty if it stays.
 void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene);
 
-/// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies.
+/// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies. A pair of two
+/// bodies without a shell cannot be tested: it is NOT_CHECKED, and Scene::warnings name it.
 /// @param motion_margin  as in BodyOptions [m].
-/// @throws std::invalid_argument if two bodies share a name, one has neither field nor shell, or a pair has no shell to
-/// test.
+/// @throws std::invalid_argument if two bodies share a name, or one has neither field nor shell.
 Scene makeScene(std::vector<Body> bodies, double motion_margin = 1e-3);
 
 /// The plan as one table for the log: body, geometry, field, shell, cells, bytes, error bound by source, pairs; below

@@ -78,7 +78,6 @@ LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
   if (a.frame == b.frame) return {"in the same frame"};
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
-  if (!whyNoShell(a).empty() && !whyNoShell(b).empty()) return {"neither has a surface that can be sampled"};
   return {};
 }
 
@@ -110,6 +109,8 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
   const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
   const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
   const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
+  of_a.has_pair = of_b.has_pair = true;
+  if (!a_shell && !b_shell) return {i, k, false, false};  // not testable
   const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
   if (a_witnesses) needs[i].witnesses = needs[k].field = true;
   if (b_witnesses) needs[k].witnesses = needs[i].field = true;
@@ -122,7 +123,6 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
   if (!b_known) needs[i].decides = true;
   of_a.needs_faces |= a_faces;
   of_b.needs_faces |= b_faces;
-  of_a.has_pair = of_b.has_pair = true;
   return {i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses};
 }
 
@@ -132,7 +132,7 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
   std::string no_shell = whyNoShell(body);
   if (no_shell.empty() && planned.is_large && planned.has_pair)
     no_shell = "large; the shells of smaller bodies suffice";
-  const std::string idle = planned.has_pair ? "the others of its pairs cannot be checked" : "no pair needs it";
+  const std::string idle = planned.has_pair ? "its pairs cannot be checked" : "no pair needs it";
   if (!needs.field) left_out.push_back({"field", body.name, {needs.shell ? "used only as a shell" : idle}});
   if (needs.edges_only) left_out.push_back({"full-shell", body.name, {no_shell}});
   if (!needs.shell) left_out.push_back({"shell", body.name, {no_shell.empty() ? idle : no_shell}});

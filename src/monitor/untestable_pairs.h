@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "sdf_ccd/monitor/scene.h"
+
+namespace sdf_ccd {
+
+/// Why a pair without any test (PlannedPair::isTestable()) is NOT_CHECKED, if nothing else is the reason.
+extern const char* const kNotTestable;
+
+/// Adds a warning to the scene, whose bodies must be set, that names the pairs that are never checked for that reason,
+/// if there are any. @return the warning.
+std::string warnOfUntestable(Scene& scene);
+
+}  // namespace sdf_ccd
