@@ -19,6 +19,7 @@ struct StudyOptions {
   std::vector<std::string> robots;                            ///< NAME=URDF[,SRDF]
   std::string bag;                                            ///< with a robot's motion, for the study `anytime`
   std::string map;                                            ///< an OctoMap's file, for the study `map`
+  std::string queries;                                        ///< folder of public queries, for the study `truth`
   std::vector<std::string> cases;                             ///< only those, all if empty
   std::vector<std::string> systems;                           ///< for the study `monitor`; all if empty
   std::vector<int> cells;                                     ///< uniform fields: cells along the longest side

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "adversarial/family.h"
+#include "adversarial/public_queries.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "adversarial/ros/ros_family.h"
 #endif
@@ -70,10 +71,18 @@ void printOracle(long pairs) {
 }
 #endif
 
+/// Queries of others, through triangles at six resolutions, and as thin bodies through the monitor.
+void printPublic(const std::string& folder) {
+  const std::vector<test::PublicQuery> queries = test::readPublicQueries(folder);
+  printRows("public_triangles", test::publicTriangles(queries));
+  printRows("public_bodies", test::publicBodies(queries));
+}
+
 void study(const StudyOptions& options) {
 #ifdef SDF_CCD_WITH_CGAL
   if (isWanted(options.cases, "oracle")) printOracle(options.motions);
 #endif
+  if (!options.queries.empty() && isWanted(options.cases, "public")) printPublic(options.queries);
   for (const auto& [family, cases] : shares(options.motions)) {
     if (!isWanted(options.cases, family.name)) continue;
     Tally tally;

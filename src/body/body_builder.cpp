@@ -95,7 +95,7 @@ class BodyBuilder {
 
   /// Makes shells that are expected to be refused as too large before the fields are built, which may take long.
   void makeLargeShells(const BodyNeeds& needs) {
-    if (!needs.shell || mayBeCoarser(options_)) return;
+    if (!needs.shell || mayShellBeCoarser(options_)) return;
     const ShellUse use{hasSiblings(), needs.decides};
     for (PooledMesh* const mesh : meshes_) {
       if (!mesh) continue;
@@ -154,7 +154,7 @@ class BodyBuilder {
         return sampleEdges(tessellate(primitive, tried), options);  // a box, which is its tessellation
       return sampleSurface(primitive, options);
     };
-    PointShell shell = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
+    PointShell shell = makeCoarser(finenessOf(options), mayShellBeCoarser(options_), make, warning);
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
   }

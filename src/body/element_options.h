@@ -28,9 +28,14 @@ inline void setFineness(double fineness, ShellOptions& shell) {
   shell.spacing = std::max(shell.spacing, fineness);
 }
 
-/// Whether fields and shells that would be too large are made coarser.
-inline bool mayBeCoarser(const BodyOptions& options) {
+/// Whether fields, or shells, that would be too large are made coarser: if nobody has set their resolution.
+///@{
+inline bool mayFieldBeCoarser(const BodyOptions& options) {
+  return options.divides_max_error || options.cells_across > 0.0;
+}
+inline bool mayShellBeCoarser(const BodyOptions& options) {
   return options.divides_max_error || options.points_across > 0.0;
 }
+///@}
 
 }  // namespace sdf_ccd

@@ -89,7 +89,7 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
     if (fineness) fineness = tried;
     return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
   };
-  const bool may = mayBeCoarser(options_) && fineness && !mesh.cell_size;
+  const bool may = mayFieldBeCoarser(options_) && fineness && !mesh.cell_size;
   CachedField made = makeCoarser(fineness.value_or(0.0), may, make, warning);
   mesh.field = std::move(made.field);
   if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
@@ -108,7 +108,7 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, const ShellUse& use) {
     setFineness(tried, options);
     return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
   };
-  CachedShell made = makeCoarser(finenessOf(options), mayBeCoarser(options_), make, warning);
+  CachedShell made = makeCoarser(finenessOf(options), mayShellBeCoarser(options_), make, warning);
   shell = std::move(made.shell);
   return noted(made.outcome, warning);
 }

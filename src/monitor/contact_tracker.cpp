@@ -175,7 +175,7 @@ void ContactTracker::update(const ObservedCycle& cycle) {
     // The intervals that meet are of one contact.
     Time end = timeOf(exitOf(cycle.result, *first));
     auto last = first + 1;
-    for (; last != touches_.end() && last->group == first->group && timeOf(last->enter) <= end + kJoin; ++last)
+    for (; last != touches_.end() && last->group == first->group && timeOf(last->enter) <= end + join_.time; ++last)
       end = std::max(end, timeOf(exitOf(cycle.result, *last)));
     Slot& slot = slotFor(static_cast<std::size_t>(first->group), timeOf(first->enter), end);
     for (; first != last; ++first) addTouch(cycle, *first, slot);
@@ -236,6 +236,7 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
 void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   const auto group = static_cast<std::size_t>(slot.group);
   bool is_delayed = false;
+  bool is_apart = true;      // at that time, farther than a break of a contact allows
   Time until = Time::max();  // time up to which all pairs of the group are checked
   for (int i = groups_.begin[group]; i < groups_.begin[group + 1]; ++i) {
     const PairResult& pair = cycle.result.pairs[groups_.pairs[i]];
@@ -245,18 +246,22 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
       return close(slot, true);
     } else {
       until = std::min(until, cycle.origin + toTime(cycle.motion.times[pair.span.last]));
+      is_apart &= pair.verdict == Verdict::kClear && pair.clearance > join_.distance;
     }
   }
-  if (!is_delayed && slot.contact.end + kJoin < until) close(slot, false);
+  if (is_delayed) return;
+  slot.was_apart |= is_apart && slot.contact.end < until;
+  if (slot.contact.end + longestBreak(slot) < until) close(slot, false);
 }
 
 /// The contact of the times from `start` to `end`: the group's last one if they meet, otherwise a new one. It has ended
 /// if it lies before the last one.
 ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
-  const bool is_earlier = last_[group] >= 0 && end + kJoin < slots_[last_[group]].contact.begin;
+  const bool is_earlier = last_[group] >= 0 && end + join_.time < slots_[last_[group]].contact.begin;
   if (last_[group] >= 0 && !is_earlier) {
     Slot& last = slots_[last_[group]];
-    if (start <= last.contact.end + kJoin && !last.contact.is_lost) {
+    if (start <= last.contact.end + longestBreak(last) && !last.contact.is_lost) {
+      last.was_apart = false;
       if (!last.is_open) {
         last.is_open = true;
         last.contact.ends = false;
@@ -293,7 +298,7 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   contact.error_bound = contact.contact_error = contact.max_force = 0.0;
   contact.cycles = 0;
   slot.group = static_cast<int>(group);
-  slot.has_deepest = slot.deepest_is_certain = false;
+  slot.has_deepest = slot.deepest_is_certain = slot.was_apart = false;
   slot.max_depth = 0.0;
   slot.is_open = true;
   slot.cycle = 0;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,13 +45,19 @@ struct ObservedCycle {
 /// Whether the interval contains one of the samples.
 bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 
+/// Which breaks of a contact do not end it, so that noise of poses does not make many contacts of one.
+struct ContactJoin {
+  std::chrono::nanoseconds time{1000000};  ///< breaks up to this long are none: rounding and field cells cause them
+  /// But a break is one if the bodies are known to be farther apart than this at the end of a cycle in it [m].
+  double distance = std::numeric_limits<double>::infinity();
+};
+
 /// Tracks contacts over time: joins contacts that the ends of cycles have cut, under an id that stays as long as the
 /// contact lasts.
 ///
-/// A contact lasts while the pair's distance is at or below zero. It continues across breaks up to kJoin (rounding and
-/// field cells cause shorter ones) and across the ends of cycles, also across delayed cycles and changes of the world,
-/// because pairs are identified by their bodies' names. It ends when the pair has been checked for longer than kJoin
-/// without touching. If the pair is not checked for some time, or no longer, it ends as lost.
+/// A contact lasts while the pair's distance is at or below zero. It continues across the breaks that ContactJoin names
+/// and across the ends of cycles, also across delayed cycles and changes of the world, because pairs are identified by
+/// their bodies' names. It ends when the pair has been checked for longer than a break without touching. If the pair is not checked for some time, or no longer, it ends as lost.
 ///
 /// A body and all tiles of a map count as one pair: sliding from one tile to another, or touching a tile that is
 /// replaced, is one contact. It continues as long as one of the tiles is touched.
@@ -62,9 +70,9 @@ bool holdsSample(const Interval& interval, const std::vector<double>& samples);
 /// allocated only if a pair touches for the first time, or more pairs touch at a time than ever before.
 class ContactTracker {
  public:
-  static constexpr std::chrono::nanoseconds kJoin{1000000};
+  static constexpr std::chrono::nanoseconds kJoin = ContactJoin().time;
 
-  explicit ContactTracker(const Scene& scene) { adopt(scene); }
+  explicit ContactTracker(const Scene& scene, const ContactJoin& join = {}) : join_(join) { adopt(scene); }
 
   /// Groups of pairs that are tracked as one.
   struct Groups {
@@ -112,6 +120,7 @@ class ContactTracker {
     TrackedContact contact;
     int group = -1;        // group of pairs; −1: free
     bool is_open = false;  // it has not ended
+    bool was_apart = false;  // the bodies were farther apart than ContactJoin::distance after it
     bool is_listed = false;
     bool is_unreported = false;  // it ended with its world, after the last cycle
     bool has_deepest = false;
@@ -130,10 +139,12 @@ class ContactTracker {
   void addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot);
   void closeIfOver(const ObservedCycle& cycle, Slot& slot);
   Slot& slotFor(std::size_t group, Time start, Time end);
+  Time longestBreak(const Slot& slot) const { return slot.was_apart ? std::min(kJoin, join_.time) : join_.time; }
   void close(Slot& slot, bool is_lost);
   void list(int index);
   void listUnreported();
 
+  ContactJoin join_;
   Groups groups_;
   std::vector<int> last_;  // per group: slot of its last contact; −1: none
   std::vector<Slot> slots_;

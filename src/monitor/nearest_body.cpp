@@ -131,6 +131,10 @@ std::string NearestBodySearch::prepare(std::size_t body) {
   return doubts;
 }
 
+bool NearestBodySearch::isIgnored(std::size_t body) const {
+  return elements_[body].empty();
+}
+
 NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const {
   NearestBody nearest;
   nearest.distance = kInfinity;

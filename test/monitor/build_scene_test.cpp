@@ -71,6 +71,22 @@ TEST(BuildScene, AMapMayHaveCellsOfItsOwn) {
   }
 }
 
+/// Where somebody has set the cells; those that follow the sizes of the bodies are made larger.
+TEST(BuildScene, AFieldThatIsLargerThanAllowedIsRejected) {
+  for (const bool is_set : {true, false}) {
+    BodyOptions options = optionsForContacts();
+    if (is_set) {
+      options.cells_across = 0.0;
+      options.field.cell_size = 0.0005;
+    }
+    options.field.max_bytes = 20 << 10;
+    const auto scene = build({body("ball", meshShape(icosphere(0.1, 3))), body("other", meshShape(icosphere(0.12, 3)))},
+                             options);
+    EXPECT_EQ(scene->bodies[0].failure.find("MB allowed") != std::string::npos, is_set) << scene->bodies[0].failure;
+    EXPECT_EQ(scene->reports[0].warnings.empty(), is_set);
+  }
+}
+
 TEST(BuildScene, DefaultOptionsAreEnough) {
   const auto scene =
       build({body("a", meshShape(icosphere(0.05, 2))), body("b", meshShape(boxMesh({0.1, 0.1, 0.1})))}, BodyOptions());

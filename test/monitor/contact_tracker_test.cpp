@@ -69,6 +69,47 @@ TEST_F(TrackerTest, BreaksShorterThanAMillisecondAreNone) {
   EXPECT_FALSE(listed()[1].ends);
 }
 
+/// Poses with a noise of 0.02 mm beside a surface: touches of 20 ms, every 45 ms, for 5 s.
+TEST_F(TrackerTest, NoiseMakesOneContactNotAHundred) {
+  for (const bool joins : {false, true}) {
+    tracker_.reset();
+    join_ = joins ? ContactJoin{at(0.1), 5e-4} : ContactJoin();
+    world({{"hand", "table"}});
+    std::set<std::uint64_t> ids;
+    for (int i = 0; i < 50; ++i) {
+      PairInput input{Verdict::kContact, {}, false, 0.0};
+      for (int k = 0; k < 112; ++k) {
+        const double enter = 0.045 * k - kLength * i;
+        if (enter >= 0.0 && enter + 0.02 <= kLength) input.touches.push_back({enter, enter + 0.02, 1e-5});
+      }
+      if (input.touches.empty()) input = {Verdict::kClear, {}, false, 2e-5};
+      cycle({input});
+      for (const TrackedContact& contact : listed()) ids.insert(contact.id);
+    }
+    if (joins) {
+      EXPECT_EQ(ids.size(), 1u);
+    } else {
+      EXPECT_GT(ids.size(), 80u);
+    }
+  }
+}
+
+TEST_F(TrackerTest, ABreakInWhichTheBodiesWereApartIsOneHoweverShortItIs) {
+  join_ = {at(0.5), 5e-4};
+  world({{"ball", "table"}});
+  cycle({{Verdict::kContact, {{0.0, 0.09}}}});
+  cycle({{Verdict::kClear, {}, false, 4e-4}});
+  EXPECT_FALSE(only().ends) << "not farther apart than the distance";
+  cycle({{Verdict::kClear, {}, false, 6e-4}});
+  EXPECT_TRUE(only().ends);
+  EXPECT_EQ(only().end, at(100.09));
+  cycle({{Verdict::kContact, {{0.02, 0.09}}}});
+  EXPECT_EQ(only().id, 2u);
+  EXPECT_TRUE(only().begins);
+  for (int i = 0; i < 5; ++i) cycle({{Verdict::kClear, {}, false, 1e-4}});
+  EXPECT_TRUE(only().ends) << "not seen for longer than a break";
+}
+
 TEST_F(TrackerTest, WhetherAContactIsSureFollowsFromItsOwnPoints) {
   world({{"a", "b"}});
   const auto verdicts = [&](const std::vector<PairInput>& cycles) {

@@ -58,6 +58,7 @@ struct PairInput {
   Verdict verdict = Verdict::kClear;
   std::vector<Touch> touches;
   bool is_delayed = false;
+  double clearance = 0.0;  // of a pair that is clear, at the cycle's end [m]
 };
 
 class TrackerTest : public ::testing::Test {
@@ -67,7 +68,7 @@ class TrackerTest : public ::testing::Test {
     if (tracker_) {
       tracker_->adopt(scene_);
     } else {
-      tracker_ = std::make_unique<ContactTracker>(scene_);
+      tracker_ = std::make_unique<ContactTracker>(scene_, join_);
     }
   }
 
@@ -83,6 +84,7 @@ class TrackerTest : public ::testing::Test {
       pair.body_a = scene_.pairs[i].body_a;
       pair.body_b = scene_.pairs[i].body_b;
       pair.verdict = input.verdict;
+      pair.clearance = input.clearance;
       if (!input.is_delayed) pair.span = {0, 1};
       pair.error = {0.0, 0.0001, 0.0, 0.0};  // of the verdict, from triangles; depths have the fields' errors
       pair.contact_error = {0.003, 0.0001, 0.0, 0.001};
@@ -116,6 +118,7 @@ class TrackerTest : public ::testing::Test {
   }
 
   Scene scene_;
+  ContactJoin join_;
   std::unique_ptr<ContactTracker> tracker_;
   std::vector<double> samples_ = {0.0, kLength};
   double now_ = 100.0;

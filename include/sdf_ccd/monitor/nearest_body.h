@@ -40,6 +40,9 @@ class NearestBodySearch {
   /// @return what is uncertain about the body's inside, or why it is left out; empty if there is nothing to say.
   std::string prepare(std::size_t body);
 
+  /// Whether the body is left out: it has no geometry, or is bad, or is not prepared.
+  bool isIgnored(std::size_t body) const;
+
   /// The nearest of the bodies that are prepared. @param X_WB  per body of the scene.
   NearestBody nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const;
 

@@ -197,6 +197,7 @@ void CollisionMonitor::cycle() {
   }
   listener_->recoverStatic();
   CycleRequest request = outputs_->request(parameters_.max_points);
+  request.contacts |= parameters_.log_contacts;
   request.max_time = parameters_.max_cycle_time;
   request.refine = parameters_.refine;
   const TfTracker::Step step = loop_->step(ros::Time::now(), request);
@@ -235,10 +236,17 @@ void CollisionMonitor::publishCycle() {
   const ros::Time sent = ros::Time::now();
   setMonitorState(*loop_, sent, *state);
   outputs_->publish(state, proximity_->measure(*loop_, *state));
+  logContacts();
   listener_->report(health_watch_.health());
   health_watch_.recordCycle(*loop_, *state, sent);
   health_watch_.recordTrigger(trigger_.awaitedFrame());
   diagnostics_->update(health_watch_.health());
+}
+
+void CollisionMonitor::logContacts() {
+  if (!parameters_.log_contacts || loop_->contacts().size() == 0) return;
+  for (const std::string& line : contact_log_.update(loop_->contacts(), ros::WallTime::now()))
+    NODELET_WARN("%s", line.c_str());
 }
 
 /// Publishes the world while fields are built; later, Outputs does. Drawing large maps takes a while, so it waits for a

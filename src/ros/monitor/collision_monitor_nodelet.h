@@ -8,6 +8,7 @@
 
 #include <nodelet/nodelet.h>
 
+#include "ros/monitor/contact_log.h"
 #include "ros/monitor/cycle_watchdog.h"
 #include "ros/monitor/health_watch.h"
 #include "ros/monitor/live_map.h"
@@ -53,6 +54,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   bool isSilent() const;
   void reportLongCycle(CycleWatchdog::Seconds elapsed) const;
   void publishCycle();
+  void logContacts();
   void publishPlan(const CheckedWorld& world) { plan_->publish(world, described_.fixed_frame); }
   void publishWorld();
   void reportIdle(const std::string& reason);
@@ -77,6 +79,7 @@ class CollisionMonitor : public nodelet::Nodelet {
 
   std::unique_ptr<Diagnostics> diagnostics_;
   HealthWatch health_watch_;
+  ContactLog contact_log_;
   ros::WallTime last_step_;  // time of the last cycle or restart
   ros::WallTime last_idle_;  // when "nothing is checked" was last published; 0 after a cycle
   ros::WallTime last_log_;   // of the progress of building

@@ -76,8 +76,7 @@ void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
 
 /// Sets the values for plots. Without subscribers to the state, contacts are not looked for: these are not known then.
 void setScalars(const MonitorLoop& loop, MonitorState& message) {
-  const CycleRequest& request = loop.request();
-  if (!request.contacts || !request.wrenches || !request.skipped_pairs) {
+  if (!hasScalars(loop)) {
     message.max_depth = message.min_clearance = message.max_force = std::numeric_limits<double>::quiet_NaN();
     message.contacts = 0;
     return;
@@ -140,6 +139,11 @@ void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& mess
     distance.closing_speed = pair.closing_speed;
   }
   message.distances.resize(count);
+}
+
+bool hasScalars(const MonitorLoop& loop) {
+  const CycleRequest& request = loop.request();
+  return request.contacts && request.wrenches && request.skipped_pairs;
 }
 
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {

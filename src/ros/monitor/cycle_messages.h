@@ -24,6 +24,9 @@ ContactArray toContactArray(const MonitorLoop& loop);
 /// Sets those of the measured pairs that are within the range [m].
 void setDistanceArray(const MonitorLoop& loop, double range, DistanceArray& message);
 
+/// Whether the last cycle was requested with all that the values for plots need; else they are NaN.
+bool hasScalars(const MonitorLoop& loop);
+
 /// @param now  time of sending, for the latency.
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message);
 MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now);

@@ -63,7 +63,7 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
                                            watchedPairs(*world_))),
       monitor_(world_->snapshot->scene, parameters.monitor),
       reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
-      contacts_(monitor_.scene()),
+      contacts_(monitor_.scene(), parameters.contact_join),
       distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {}
 
 MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,

@@ -62,12 +62,13 @@ void Outputs::adopt(Change& change) {
 
 CycleRequest Outputs::request(int max_points) {
   countSubscribers();
+  const bool wants_state = state_wanted_ || ros::WallTime::now() >= state_due_;
   CycleRequest request;
-  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || state_wanted_;
-  request.contacts = contacts_wanted_ || markers_.wantsMarkers() || state_wanted_;
+  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || wants_state;
+  request.contacts = contacts_wanted_ || markers_.wantsMarkers() || wants_state;
   request.max_points = contacts_wanted_ || markers_.wantsMarkers() ? max_points : 0;
   // The status text and the state report the clearance of all pairs.
-  request.skipped_pairs = markers_.wantsMarkers() || markers_.wantsLinks() || state_wanted_ || proximity_.isWanted();
+  request.skipped_pairs = markers_.wantsMarkers() || markers_.wantsLinks() || wants_state || proximity_.isWanted();
   return request;
 }
 
@@ -88,9 +89,23 @@ void Outputs::countSubscribers() {
   }
 }
 
+/// Whether the state is published: to subscribers always; else if it has all numbers. Without them, a change is
+/// published after the next cycle, which has them.
+bool Outputs::isDue(const MonitorState& state) {
+  constexpr double kPeriod = 1.0;  // [s]
+  if (!state_wanted_ && !hasScalars(loop_)) {
+    if (state.verdict != verdict_ || state.proximity != proximity_level_) state_due_ = ros::WallTime();
+    return false;
+  }
+  verdict_ = state.verdict;
+  proximity_level_ = state.proximity;
+  state_due_ = ros::WallTime::now() + ros::WallDuration(kPeriod);
+  return true;
+}
+
 void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost::shared_ptr<DistanceArray>& distances) {
   Report& report = worker_->next();
-  report.state = state;
+  if (isDue(*state)) report.state = state;
   report.distances = distances;
   report.has_contact_states = contact_states_wanted_;
   if (torques_wanted_) report.torques = torques_.toMessage(loop_);
@@ -113,6 +128,7 @@ void Outputs::publishUnchecked(const std::string& reason, const boost::shared_pt
   Report& report = worker_->next();
   report.has_contact_states = false;
   report.state = state;
+  state_due_ = ros::WallTime();  // the first cycle after it
   if (contacts_wanted_) report.contacts = boost::make_shared<ContactArray>(toUncheckedContacts(loop_, reason));
   worker_->handOver();
   markers_.drawUnchecked(reason);

@@ -21,6 +21,8 @@ namespace sdf_ccd {
 /// Publishes the results of a cycle.
 ///
 /// Publishes, below the node's name, besides the topics of MarkerOutputs:
+///   state            sdf_ccd/MonitorState         every cycle; without subscribers once a second and when the verdict
+///                                                 or proximity has changed, so that the latched message holds numbers
 ///   contacts         sdf_ccd/ContactArray         every cycle, and once a second while there is none
 ///   contact_states   gazebo_msgs/ContactsState    every cycle; see toContactStates()
 ///   wrenches/<link>  geometry_msgs/WrenchStamped  every cycle: sum of the contact wrenches on the link, in the link's
@@ -94,6 +96,7 @@ class Outputs {
   };
 
   void countSubscribers();
+  bool isDue(const MonitorState& state);
   void send(Report& report);
 
   ros::NodeHandle node_;
@@ -106,6 +109,8 @@ class Outputs {
   MessagePool<ContactArray> contact_messages_;
 
   ros::WallTime counted_at_;  // when subscribers were last counted
+  ros::WallTime state_due_;   // when a state is published without subscribers
+  std::uint8_t verdict_ = 0, proximity_level_ = 0;  // of the state that was published last
   bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
 

@@ -328,7 +328,13 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
     double preparing = 0.0;
     const Piece piece(*this, preparing, kPreparing);
     const std::string doubt = search.prepare(body);
-    if (!doubt.empty()) response.message += "body " + description.name + ": " + doubt + "\n";
+    if (doubt.empty()) continue;
+    const std::string line = "body " + description.name + ": " + doubt;
+    if (search.isIgnored(body)) {
+      response.message += line + "\n";
+    } else if (doubts_.insert(line).second) {
+      ROS_WARN("query_points: %s", line.c_str());
+    }
   }
   double spent = 0.0;
   for (std::size_t first = 0; first < request.points.size(); first += kPointsPerPiece) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include <ros/publisher.h>
@@ -78,6 +79,7 @@ class Queries {
   QueryLimits limits_;
   WorkTurns turns_;
   std::shared_ptr<MeshDistances> meshes_ = makeMeshDistances();  // used by one answer at a time
+  std::set<std::string> doubts_;  // about bodies that errors of distances allow for, as logged; likewise
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
   WorkArena arena_;
 };

@@ -110,7 +110,15 @@ TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& par
   return trigger;
 }
 
-ContactOptions readContact(ParameterReader reader) {
+ContactJoin readJoin(ParameterReader& reader, const ContactJoin& preset) {
+  const double time = reader.notNegative("join_time", std::chrono::duration<double>(preset.time).count());
+  if (time > kLongestCycle) reader.fail("join_time", "at most an hour");
+  const auto rounded = std::chrono::nanoseconds(std::llround(1e9 * time));
+  return {std::max(ContactTracker::kJoin, rounded), reader.notNegative("join_distance", preset.distance)};
+}
+
+ContactOptions readContact(ParameterReader reader, ContactJoin& join) {
+  join = readJoin(reader, join);
   ContactOptions contact;
   contact.stiffness_per = static_cast<StiffnessPer>(
       reader.choice("stiffness_per", {"area", "point"}, static_cast<int>(contact.stiffness_per)));
@@ -190,7 +198,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     reader.text("cache_directory", "");
   }
 
-  parameters.monitor.contact = readContact(reader.group("contact"));
+  parameters.monitor.contact = readContact(reader.group("contact"), parameters.contact_join);
   readMaxError(reader, parameters);
   ChordOptions& chords = parameters.monitor.chords;
   chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
@@ -206,6 +214,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.proximity = readProximity(reader);
   if (parameters.proximity.promise) parameters.proximity.promise->map_distance = parameters.live_map.padding;
   parameters.max_points = reader.integer("max_points", 20, 0);
+  parameters.log_contacts = reader.flag("log_contacts", true);
   parameters.refine = static_cast<Refinement>(reader.choice("refine", {"none", "deepest"}, 0));
   parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);

@@ -7,6 +7,7 @@
 #include <ros/node_handle.h>
 
 #include "model/pair_rules.h"
+#include "monitor/contact_tracker.h"
 #include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
@@ -68,6 +69,8 @@ struct MonitorParameters {
   LiveMapParameters live_map;
   BodyOptions scene;
   MonitorOptions monitor;
+  ContactJoin contact_join{std::chrono::milliseconds(100), 5e-4};
+  bool log_contacts = true;  ///< see ContactLog
   TfTrackerOptions tf;
   MarkerOptions markers;
   ProximityParameters proximity;
