@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <variant>
@@ -13,18 +14,17 @@
 #include "model/error_budget.h"
 #include "model/name_pair.h"
 #include "monitor/plan/scene_cost.h"
+#include "observed_pairs.h"
 #include "robot/joint_motion.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
 #include "robot/unreachable_pairs.h"
-#include "state_verdicts.h"
 
 namespace sdf_ccd {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kRound = 256;    // states between two updates of the undecided pairs
 constexpr std::size_t kAlways = 1000;  // random states that decide Always: each costs a search for contacts
 
 /// Of each mesh once, for the first link that has it.
@@ -131,106 +131,55 @@ BodyOptions sceneOptions(double max_error) {
   return options;
 }
 
-/// Observations of one pair.
-struct Seen {
-  bool is_rigid = false;  // one state is enough
-  bool touch = false, apart = false, close = false, unchecked = false, touch_at_default = false;
+bool isRigid(const RobotModel& robot, const Scene& scene, const PlannedPair& pair) {
+  return robot.rigidlyJoined(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
+}
 
-  /// Whether another state can change the result.
-  /// @param is_long  whether it has been tested in more than kAlways random states.
-  bool isOpen(bool is_long) const {
-    if (is_rigid && (touch || apart || close)) return false;
-    if (is_long && touch) return false;
-    return !unchecked && !(touch && (apart || close));
-  }
-};
+bool isClose(const ObservedPair& pair) {
+  return pair.has(Nearness::kNear) || pair.has(Nearness::kOpen) || pair.has(Nearness::kHeld);
+}
 
-void sortOut(const PlannedPair& pair, const Seen& seen, const Scene& scene, const LearnOptions& options,
-             LearnedPairs& pairs) {
+void sortOut(const PlannedPair& pair, const ObservedPair& seen, const Scene& scene, const LearnOptions& options,
+             bool is_rigid, LearnedPairs& pairs) {
   LearnedPair found = {scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name, ""};
-  if (seen.touch_at_default && (seen.apart || seen.close)) pairs.at_default.push_back(found);
-  if (seen.unchecked) {
+  const bool is_always = seen.areAlwaysTogether(), touches = seen.has(Nearness::kOverlap);
+  if (seen.mayOverlapAtRest() && !is_always) pairs.at_default.push_back(found);
+  if (seen.has(Nearness::kUnknown)) {
     const std::string& failure = scene.bodies[pair.body_a].failure;
     found.reason = failure.empty() ? scene.bodies[pair.body_b].failure : failure;
     if (found.reason.empty()) found.reason = "a state could not be tested";
     pairs.unknown.push_back(found);
-  } else if (seen.touch && !seen.apart && !seen.close) {
+  } else if (is_always) {
     found.reason = "Always";
     pairs.disabled.push_back(found);
-  } else if (!seen.touch && !seen.close) {
+  } else if (!touches && !isClose(seen)) {
     found.reason = "Never";
     pairs.disabled.push_back(found);
-    pairs.proved += seen.is_rigid;
-  } else if (options.default_pairs && seen.touch_at_default) {
+    pairs.proved += is_rigid;
+  } else if (options.default_pairs && seen.mayOverlapAtRest()) {
     found.reason = "Default";
     pairs.disabled.push_back(found);
   } else {
-    (seen.touch ? pairs.touching : pairs.close).push_back(found);
+    (touches ? pairs.touching : pairs.close).push_back(found);
   }
 }
 
-/// The default state, the recorded ones, then random ones.
-class States {
- public:
-  States(const RobotModel& robot, const LearnOptions& options)
-      : options_(options), sampler_(robot, options.seed), size_(1 + options.recorded.size() + options.states) {}
-
-  std::size_t size() const { return size_; }
-  bool atEnd() const { return next_ == size_; }
-  std::size_t randomTaken() const {
-    return next_ > options_.recorded.size() ? next_ - 1 - options_.recorded.size() : 0;
-  }
-  double share() const { return double(next_) / double(size_); }
-
-  std::vector<JointPositions> take(std::size_t count) {
-    std::vector<JointPositions> states;
-    for (; states.size() < count && next_ < size_; ++next_) {
-      const std::size_t recorded = next_ - 1;
-      states.push_back(next_ == 0                            ? JointPositions()
-                       : recorded < options_.recorded.size() ? options_.recorded.state(recorded)
-                                                             : sampler_.next());
-    }
-    return states;
-  }
-
- private:
-  const LearnOptions& options_;
-  JointSampler sampler_;
-  std::size_t size_, next_ = 0;
-};
-
 /// Tests the scene's pairs in all states, each until it is known to need a check.
-std::vector<Seen> testPairs(const RobotModel& robot, const Scene& scene, const LearnOptions& options) {
-  std::vector<Seen> seen(scene.pairs.size());
-  for (std::size_t p = 0; p < seen.size(); ++p) {
-    seen[p].is_rigid =
-        robot.rigidlyJoined(scene.bodies[scene.pairs[p].body_a].name, scene.bodies[scene.pairs[p].body_b].name);
-  }
+std::vector<ObservedPair> testPairs(const RobotModel& robot, const Scene& scene, const LearnOptions& options) {
+  std::vector<std::size_t> all(scene.pairs.size());
+  std::iota(all.begin(), all.end(), 0);
+  Observation observation;
+  observation.recorded = &options.recorded;
+  observation.random_states = options.states;
+  observation.seed = options.seed;
   // States between two in which a pair is closer than the bound may touch.
-  const auto judge = [bound = scene.contact_bound.total()](const PairResult& pair) {
-    const bool is_close = pair.verdict == Verdict::kClear && pair.clearance <= bound;
-    return is_close ? Verdict::kUncertain : pair.verdict;
+  observation.near = scene.contact_bound.total();
+  observation.is_open = [&](std::size_t p, const ObservedPair& seen, std::size_t random) {
+    if (seen.has(Nearness::kUnknown) || isRigid(robot, scene, scene.pairs[p])) return false;  // one state is enough
+    return seen.areAlwaysTogether() ? random <= kAlways : !seen.has(Nearness::kOverlap);
   };
-  States states(robot, options);
-  while (!states.atEnd()) {
-    if (options.progress) options.progress("states", states.share());
-    const bool is_default = states.share() == 0.0;
-    std::vector<std::size_t> open;
-    for (std::size_t p = 0; p < seen.size(); ++p)
-      if (seen[p].isOpen(states.randomTaken() > kAlways)) open.push_back(p);
-    if (open.empty()) break;
-    // The first update comes early: most pairs that touch in some states do so in the first ones.
-    const std::vector<JointPositions> round = states.take(is_default ? 1 : kRound);
-    const std::vector<Verdict> verdicts = verdictsOf(robot, scene, open, round, judge);
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      Seen& pair = seen[open[i % open.size()]];
-      pair.touch |= verdicts[i] == Verdict::kContact;
-      pair.apart |= verdicts[i] == Verdict::kClear;
-      pair.close |= verdicts[i] == Verdict::kUncertain;
-      pair.unchecked |= verdicts[i] == Verdict::kNotChecked;
-      pair.touch_at_default |= is_default && verdicts[i] == Verdict::kContact;
-    }
-  }
+  if (options.progress) observation.progress = [&](double share) { options.progress("states", share); };
+  std::vector<ObservedPair> seen = observePairs(robot, scene, all, observation);
   if (options.progress) options.progress("states", 1.0);
   return seen;
 }
@@ -276,8 +225,9 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   requireAffordable(*plan.expected, scene_options);
   const Scene scene = buildScene(description, plan, scene_options, build_progress);
   const auto built = Clock::now();
-  const std::vector<Seen> seen = testPairs(robot, scene, options);
-  for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
+  const std::vector<ObservedPair> seen = testPairs(robot, scene, options);
+  for (std::size_t p = 0; p < seen.size(); ++p)
+    sortOut(scene.pairs[p], seen[p], scene, options, isRigid(robot, scene, scene.pairs[p]), pairs);
   pairs.error_bound = scene.contact_bound.total();
   pairs.build_seconds = std::chrono::duration<double>(built - start).count();
   pairs.test_seconds = secondsSince(built);

@@ -15,7 +15,7 @@ struct LearnOptions {
   std::uint64_t seed = 1;       ///< of the sampler
   JointStates recorded;         ///< further states; joints that are not named are as in the default state
   double max_error = 0.005;     ///< of the verdict about a pair in a state [m]; see BodyOptions::max_error
-  bool default_pairs = false;   ///< also leave out pairs that touch in the default state, but not always
+  bool default_pairs = false;   ///< also leave out pairs that touch or may touch in the default state, but not always
   std::function<void(const std::string& what, double share)> progress;  ///< may throw to cancel
 };
 
@@ -32,7 +32,7 @@ struct LearnedPairs {
   std::vector<LearnedPair> touching;     ///< touch in some states: to be checked
   std::vector<LearnedPair> close;        ///< come within the error bound of each other: to be checked
   std::vector<LearnedPair> unknown;      ///< no result, and why: to be checked
-  std::vector<LearnedPair> at_default;   ///< of `touching`, and Default: those that touch in the default state
+  std::vector<LearnedPair> at_default;   ///< of these, and Default: CONTACT or UNCERTAIN in the default state
   std::size_t known = 0;                 ///< number of pairs decided by the given SRDF
   std::size_t proved = 0;                ///< of `disabled`, Never: rigidly joined, or out of each other's reach
   std::size_t states = 0, recorded = 0;  ///< tested states, besides the default state
@@ -47,14 +47,15 @@ struct LearnedPairs {
 ///
 ///  - Adjacent: they are joined by one joint, or by one that moves and else fixed ones to links without collision
 ///    shapes. They are not tested.
-///  - Always: they touch in every state, deeper than the error bound. About a thousand random states are tested, as
-///    each needs a search for all contact points: a pair that separates in less than 0.3 % of states may be classified
-///    as Always.
+///  - Always: they touch in every state, deeper than the error bound; or as neighbours they do so or come within 1 mm,
+///    and in none of them enter each other by more while they are apart in others (ObservedPair). About a thousand
+///    random states are tested, as each needs a search for all contact points: a pair that separates in less than 0.3 %
+///    of states may be classified as Always.
 ///  - Never: they are farther apart than the error bound in every state. That is no proof, unless they are rigidly
 ///    joined or out of each other's reach (RobotModel::reach()): after n states without a touch, a pair touches with
 ///    95 % confidence in less than 3 / n of the states that could have been drawn.
-///  - Default, if requested: they touch in the default state, with joints at zero or at the nearest limit. They may
-///    separate and touch again in other states; such contacts are then not found.
+///  - Default, if requested: they are CONTACT or UNCERTAIN in the default state, with joints at zero or at the nearest
+///    limit. They may separate and touch again in other states; such contacts are then not found.
 ///
 /// Pairs that the given SRDF disables or enables stay as it says and are not tested. Nothing is learned of pairs with a
 /// planar, floating or unlimited prismatic joint between them, or whose shapes cannot be read. The result depends on

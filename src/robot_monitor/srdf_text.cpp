@@ -26,7 +26,8 @@ std::string commentText(const LearnedPairs& pairs) {
   std::string text =
       " The following pairs were learned by `sdf_ccd learn-pairs` from " + statesText(pairs) +
       ", with an error bound of " + numberText(1e3 * pairs.error_bound) +
-      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched in all recorded and the first " +
+      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched, or as neighbours came within 1 mm, in all "
+      "recorded and the first " +
       std::to_string(pairs.always_states) +
       " random ones.\n"
       "       Never: farther apart than the bound in all of these states. Of " +

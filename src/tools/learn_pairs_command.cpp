@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kNamed = 10;  // printed items of a list
+constexpr std::size_t kUnknown = 10;  // printed pairs that are not learned: their reasons are often the same
 
 struct Arguments {
   std::string urdf, srdf, out, bag, topic;
@@ -51,14 +52,16 @@ class Bars {
   std::unique_ptr<ProgressBar> bar_;
 };
 
-void printList(const std::string& heading, const std::vector<LearnedPair>& pairs) {
+/// @param most  at most so many are printed.
+void printList(const std::string& heading, const std::vector<LearnedPair>& pairs,
+               std::size_t most = std::numeric_limits<std::size_t>::max()) {
   if (pairs.empty()) return;
   std::cout << heading << pairs.size() << "\n";
-  for (std::size_t i = 0; i < std::min(kNamed, pairs.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i) {
     const LearnedPair& pair = pairs[i];
     std::cout << "  " << pairName(pair.link_a, pair.link_b) << (pair.reason.empty() ? "" : ": " + pair.reason) << "\n";
   }
-  if (pairs.size() > kNamed) std::cout << "  and " << pairs.size() - kNamed << " more\n";
+  if (pairs.size() > most) std::cout << "  and " << pairs.size() - most << " more\n";
 }
 
 void printReport(const LearnedPairs& pairs) {
@@ -77,7 +80,7 @@ void printReport(const LearnedPairs& pairs) {
   if (pairs.known > 0) std::cout << "as given         " << pairs.known << "\n";
   printList("touch            ", pairs.touching);
   printList("close            ", pairs.close);
-  printList("not learned      ", pairs.unknown);
+  printList("not learned      ", pairs.unknown, kUnknown);
   printList("touch at default ", pairs.at_default);
   std::cout << std::flush;
 }
@@ -138,7 +141,9 @@ void addLearnPairsCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("learn-pairs", "Write an SRDF of the pairs of links that need no check");
   command->footer(
-      "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound. Never: farther "
+      "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound, or as "
+      "neighbours "
+      "come within 1 mm in all of them. Never: farther "
       "apart than it in all of them, which is not a proof unless they are out of each other's reach; the file gives "
       "the number of states tested. States are drawn within the joints' limits, a quarter of them with joints at "
       "their limits; mimic joints follow, continuous ones take a full revolution, or more if what follows them needs "
@@ -154,7 +159,7 @@ void addLearnPairsCommand(CLI::App& app) {
   command->add_option("--max-error", arguments->max_error,
                       "Error bound [m]: pairs that come nearer than this are not left out; default 0.005");
   command->add_flag("--default", arguments->default_pairs,
-                    "Also leave out pairs that touch where all joints are at zero, but not always");
+                    "Also leave out pairs that touch, or are UNCERTAIN, where all joints are at zero, but not always");
 #ifdef SDF_CCD_WITH_ROS
   command->add_option("--bag", arguments->bag, "Bag whose joint states are tested too; --states 0: these alone");
   command->add_option("--joint-states", arguments->topic, "Topic of them; default all of the bag");

@@ -183,6 +183,43 @@ TEST(LearnPairs, RecordedStatesCount) {
   EXPECT_TRUE(namesOf(learn(scissors(), options).disabled, "Default").count("a c") > 0);
 }
 
+/// All of the surfaces of a and b coincide at rest, so that the monitor would say UNCERTAIN there.
+TEST(LearnPairs, DefaultCoversPairsThatAreUncertainAtRest) {
+  const auto cube = [](const std::string& link) {
+    return "<link name='" + link +
+           "'><collision><origin xyz='1 0 0'/><geometry><box size='0.3 0.3 0.3'/></geometry></collision></link>" +
+           joint("base", link, "continuous");
+  };
+  const std::string urdf = "<robot name='r'>" + sphere("base", 0.0) + cube("a") + cube("b") + "</robot>";
+  LearnOptions options = coarse();
+  options.states = 500;
+  const LearnedPairs without = learn(urdf, options);
+  EXPECT_EQ(namesOf(without.touching), Names{"a b"});
+  EXPECT_EQ(namesOf(without.at_default), Names{"a b"});
+  options.default_pairs = true;
+  EXPECT_EQ(namesOf(learn(urdf, options).disabled, "Default"), Names{"a b"});
+}
+
+/// As at start-up: a car 0.5 mm above its rail, with a link without a shape between them, which hits a stop or not.
+TEST(LearnPairs, NeighboursThatAJointHoldsTogetherAreAlways) {
+  const auto disabled = [](double stop) {
+    const auto box = [](const std::string& size, const std::string& xyz) {
+      return "<collision><origin xyz='" + xyz + "'/><geometry><box size='" + size + "'/></geometry></collision>";
+    };
+    const std::string urdf = "<robot name='slide'><link name='rail'>" + box("6 0.1 0.1", "0 0 0") +
+                             box("0.2 0.1 0.1", std::to_string(stop + 0.1) + " 0 0.1") + "</link><link name='motor'/>" +
+                             joint("rail", "motor", "fixed") + "<link name='car'>" + box("0.2 0.1 0.1", "0 0 0.1005") +
+                             "</link><joint name='to_car' type='prismatic'><parent link='motor'/><child link='car'/>"
+                             "<axis xyz='1 0 0'/>" +
+                             limits(-1.0, 1.0) + "</joint></robot>";
+    LearnOptions options = coarse();
+    options.states = 200;
+    return namesOf(learn(urdf, options).disabled, "Always");
+  };
+  EXPECT_EQ(disabled(2.0), Names{"car rail"});
+  EXPECT_EQ(disabled(0.7), Names{});
+}
+
 TEST(LearnPairs, TheFileKeepsWhatWasGivenAndIsHonest) {
   const std::string given =
       "<?xml version=\"1.0\"?>\n<!-- mine -->\n<robot name=\"scissors\">\n"

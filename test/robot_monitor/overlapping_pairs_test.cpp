@@ -80,70 +80,131 @@ struct Cart {
   }
 };
 
-TEST(OverlappingPairs, ThoseAtRestAndWhetherAlways) {
-  const Cart cart;
-  std::map<std::string, OverlappingPair> found;
-  for (const OverlappingPair& pair : overlappingPairs(cart.robot, cart.scene)) found[cart.nameOf(pair.pair)] = pair;
-  ASSERT_EQ(found.count("base wheel"), 1u);
-  EXPECT_TRUE(found["base wheel"].always);
-  EXPECT_NEAR(found["base wheel"].depth, 0.03, 0.002);
-  ASSERT_EQ(found.count("base arm"), 1u);
-  EXPECT_FALSE(found["base arm"].always) << "it hangs in the base, and swings out of it";
-  EXPECT_NEAR(found["base arm"].depth, 0.05, 0.01);
-  ASSERT_EQ(found.count("base ghost"), 1u);
-  EXPECT_FALSE(found["base ghost"].always) << "nobody knows where it goes";
-}
-
 /// A depth in millimetres, after "name ("; negative without one.
 double depthAfter(const std::string& begin, const std::string& text) {
   const std::size_t at = text.find(begin);
   return at == std::string::npos ? -1.0 : std::stod(text.substr(at + begin.size()));
 }
 
-TEST(OverlappingPairs, AreLeftOutAndTold) {
-  Cart cart;
-  const std::size_t before = cart.scene.pairs.size();
-  const std::size_t left_out = cart.scene.left_out.size();
-  applyOverlapRule(cart.robot, {}, cart.scene);
-  EXPECT_EQ(cart.scene.pairs.size(), before - 1);
-  EXPECT_FALSE(cart.has("base wheel"));
-  EXPECT_TRUE(cart.has("base arm"));
-  ASSERT_EQ(cart.scene.left_out.size(), left_out + 1);
-  EXPECT_EQ(cart.scene.left_out.back().what(), "pair base - wheel");
-  const LeftOutReason reason = cart.scene.left_out.back().reason;
-  EXPECT_NEAR(reason.depth, 0.03, 0.002);
-  EXPECT_EQ(reason.text,
-            "overlap at rest and overlap or, as neighbours, come within 1 mm in all of 200 random states, which is no "
-            "proof for others");
-  ASSERT_EQ(cart.scene.warnings.size(), 3u);
-  EXPECT_NE(cart.scene.warnings[0].find("base - wheel (30 mm)"), std::string::npos) << cart.scene.warnings[0];
-  EXPECT_NE(cart.scene.warnings[1].find("base - arm"), std::string::npos) << cart.scene.warnings[1];
-  // The hanging arm ends where the ghost begins.
-  EXPECT_EQ(cart.scene.warnings[2],
-            "may overlap where all joints are at rest, as far as can be told, and are checked: 1 pair of links: "
-            "ghost - arm");
-  EXPECT_NE(planTable(cart.scene).find(cart.scene.warnings[0]), std::string::npos);
-  const std::string table = planTable(cart.scene);
-  EXPECT_NEAR(depthAfter("random states, which is no proof for others: base - wheel (", table), 30.0, 2.0) << table;
-  std::size_t counted = 0;
-  for (const BodyReport& report : cart.scene.reports) counted += report.pairs;
-  EXPECT_EQ(counted, 2 * cart.scene.pairs.size());
-  EXPECT_GT(cart.scene.contact_bound.total(), 0.0);
+std::set<std::string> namesOf(bool set_aside, const std::vector<RestOverlap>& pairs) {
+  std::set<std::string> names;
+  for (const RestOverlap& pair : pairs)
+    if (pair.is_set_aside == set_aside) names.insert(pair.link_a + " " + pair.link_b);
+  return names;
 }
 
-TEST(OverlappingPairs, ThoseThatStayAreToldToo) {
-  for (const OverlapRule& rule : {OverlapRule{true, {{"wh*", "base"}}}, OverlapRule{false, {}}}) {
+using Names = std::set<std::string>;
+
+/// The arm hangs in the base, and swings out of it; nobody knows where the ghost goes. The hanging arm ends where the
+/// ghost begins.
+TEST(OverlappingPairs, EachRuleSetsItsOwnAside) {
+  const Names all = {"base wheel", "base arm", "base ghost", "ghost arm"};
+  const std::map<OverlapRule::Kind, Names> expected = {{OverlapRule::Kind::kNeighbours, {"base wheel", "base arm"}},
+                                                       {OverlapRule::Kind::kLeaveOut, {"base wheel"}},
+                                                       {OverlapRule::Kind::kRest, all},
+                                                       {OverlapRule::Kind::kCheck, {}}};
+  for (const auto& [kind, names] : expected) {
     Cart cart;
-    const std::size_t before = cart.scene.pairs.size();
-    applyOverlapRule(cart.robot, rule, cart.scene);
-    EXPECT_EQ(cart.scene.pairs.size(), before);
-    EXPECT_TRUE(cart.has("base wheel"));
-    std::string told;
-    for (const std::string& warning : cart.scene.warnings) told += warning + "\n";
-    EXPECT_NEAR(depthAfter("base - wheel (", told), 30.0, 2.0) << told;
-    EXPECT_NEAR(depthAfter("base - arm (", told), 50.0, 10.0) << told;
-    EXPECT_EQ(told.find("as checked_pairs") != std::string::npos, rule.leave_out) << told;
+    const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {kind, {}}, cart.scene);
+    EXPECT_EQ(namesOf(true, found), names) << int(kind);
+    Names checked = all;
+    for (const std::string& name : names) checked.erase(name);
+    EXPECT_EQ(namesOf(false, found), checked) << int(kind);
+    for (const std::string& name : all) EXPECT_EQ(cart.has(name), checked.count(name) > 0) << name;
+    for (const RestOverlap& pair : found) {
+      const bool is_open = pair.link_b == "arm" && pair.link_a == "ghost";
+      EXPECT_EQ(pair.kind, is_open ? RestOverlap::Kind::kOpen : RestOverlap::Kind::kOverlap) << pair.link_b;
+      if (pair.link_b == "wheel") EXPECT_NEAR(pair.depth, 0.03, 0.002);
+      if (pair.link_b == "arm" && !is_open) EXPECT_NEAR(pair.depth, 0.05, 0.01);
+      const bool is_tested = kind == OverlapRule::Kind::kLeaveOut;
+      EXPECT_EQ(pair.is_always, is_tested && pair.link_b == "wheel") << pair.link_b;
+    }
   }
+}
+
+/// `far`, on as many hinges in a row as given, is 5 cm inside the base at rest; it swings out of it.
+std::string folded(int hinges, const std::string& type = "continuous") {
+  std::string urdf = "<robot name='folded'>" + box("base", "1 1 0.2"), last = "base";
+  for (int i = 1; i < hinges; ++i) {
+    const std::string link = "l" + std::to_string(i);
+    urdf += box(link, "0.01 0.01 0.01", "0 5 0") + joint(last, link, type, "0 0 0.5");
+    last = link;
+  }
+  const std::string down = std::to_string(-0.5 * (hinges - 1) + 0.5);
+  return urdf + box("far", "0.05 0.05 0.45", "0 0 -0.225") + joint(last, "far", "continuous", "0 0 " + down) +
+         "</robot>";
+}
+
+TEST(OverlappingPairs, OfFarLinksStayUnlessTheyAlwaysOverlap) {
+  const auto setAside = [](const std::string& urdf) {
+    const RobotModel robot(urdf);
+    std::vector<std::string> warnings;
+    const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+    Scene scene = buildScene(description, planScene(description), coarse());
+    const std::vector<RestOverlap> found = applyOverlapRule(robot, {}, scene);
+    EXPECT_EQ(namesOf(true, found).size() + namesOf(false, found).size(), 1U);
+    return namesOf(true, found);
+  };
+  EXPECT_EQ(setAside(folded(2)), Names{"base far"});
+  EXPECT_EQ(setAside(folded(3)), Names{});
+  EXPECT_EQ(setAside(folded(2, "floating")), Names{}) << "nobody knows where it goes";
+}
+
+TEST(OverlappingPairs, AreToldWithLinesForAnSrdf) {
+  Cart cart;
+  const std::size_t before = cart.scene.pairs.size(), left_out = cart.scene.left_out.size();
+  const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {}, cart.scene);
+  EXPECT_EQ(cart.scene.pairs.size(), before - 2);
+  ASSERT_EQ(cart.scene.left_out.size(), left_out + 2);
+  const LeftOut& last = cart.scene.left_out.back();
+  EXPECT_EQ(last.reason.text,
+            "overlap at rest, with at most two movable joints between them, which is no proof for others");
+  EXPECT_GT(last.reason.depth, 0.02);
+  ASSERT_EQ(cart.scene.warnings, (std::vector<std::string>{setAsideText(found), checkedOverlapsText(found)}));
+  EXPECT_EQ(setAsideText(found).find("2 pairs that overlap at rest are set aside: base - arm ("), 0U);
+  EXPECT_EQ(checkedOverlapsText(found).find("2 pairs that overlap at rest are checked: base - ghost ("), 0U);
+  EXPECT_NE(checkedOverlapsText(found).find("ghost - arm (may overlap)\n"), std::string::npos);
+  EXPECT_NE(planTable(cart.scene).find(setAsideText(found)), std::string::npos);
+
+  // With these lines nothing is left to be told.
+  std::string lines;
+  for (const std::string& warning : cart.scene.warnings) lines += warning.substr(warning.find("\n<"));
+  const Srdf srdf = parseSrdf("<robot name='cart'>" + lines + "</robot>");
+  EXPECT_EQ(srdf.disabled.size(), 4U);
+  std::vector<std::string> warnings;
+  const SceneDescription description = describeRobot(cart.robot, srdf, noResource, {}, warnings);
+  Scene scene = buildScene(description, planScene(description), coarse());
+  EXPECT_TRUE(applyOverlapRule(cart.robot, {}, scene).empty());
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_EQ(scene.pairs.size(), before - 4);
+}
+
+TEST(OverlappingPairs, ThoseThatTheUserNamesStay) {
+  Cart cart;
+  const std::vector<RestOverlap> found =
+      applyOverlapRule(cart.robot, {OverlapRule::Kind::kRest, {{"wh*", "base"}}}, cart.scene);
+  EXPECT_TRUE(cart.has("base wheel"));
+  const std::string told = checkedOverlapsText(found);
+  EXPECT_NEAR(depthAfter("1 pair that overlaps at rest is checked: base - wheel (", told), 30.0, 2.0) << told;
+  EXPECT_EQ(told.find("disable_collisions"), std::string::npos) << told;
+}
+
+/// What requests change is told as it then is.
+TEST(OverlappingPairs, AreToldAsAnotherVersionHasThem) {
+  Cart cart;
+  const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {}, cart.scene);
+  EXPECT_EQ(namesOf(true, overlapsIn(cart.scene, found)), namesOf(true, found));
+  // A request has the arm checked, and the ghost left out.
+  Scene next = Cart().scene;
+  std::vector<LeftOutReason> reasons(next.pairs.size());
+  for (std::size_t p = 0; p < reasons.size(); ++p) {
+    const std::string name = pairName(next, next.pairs[p]);
+    if (name == "base - wheel" || name == "base - ghost") reasons[p].text = "left out";
+  }
+  leaveOut(reasons, next);
+  const std::vector<RestOverlap> now = overlapsIn(next, found);
+  EXPECT_EQ(namesOf(true, now), Names{"base wheel"});
+  EXPECT_EQ(namesOf(false, now), (Names{"base arm", "ghost arm"}));
 }
 
 /// Seven wheels in a base, each 5 mm deeper than the one before, on casters so that they are not adjacent.
@@ -161,7 +222,7 @@ TEST(OverlappingPairs, AllHaveTheirDepthInThePlanAndTheDeepestAreNamed) {
   std::vector<std::string> warnings;
   const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
   Scene scene = buildScene(description, planScene(description), coarse());
-  applyOverlapRule(robot, {}, scene);
+  applyOverlapRule(robot, {OverlapRule::Kind::kLeaveOut, {}}, scene);
   const std::string table = planTable(scene);
   EXPECT_NE(table.find("  7 pairs, overlap at rest and overlap or"), std::string::npos) << table;
   const std::string lines = table.substr(table.find("left out:"));
@@ -175,8 +236,11 @@ TEST(OverlappingPairs, AllHaveTheirDepthInThePlanAndTheDeepestAreNamed) {
     EXPECT_NEAR(1e3 * left_out->reason.depth, depth, 0.5);
   }
   ASSERT_EQ(scene.warnings.size(), 1U);
-  EXPECT_NE(scene.warnings[0].find("the deepest first: base - wheel6"), std::string::npos) << scene.warnings[0];
-  EXPECT_EQ(scene.warnings[0].find("wheel0"), std::string::npos) << scene.warnings[0];
+  const std::string told = scene.warnings[0].substr(0, scene.warnings[0].find('\n'));
+  EXPECT_NE(told.find("set aside: base - wheel6"), std::string::npos) << told;
+  EXPECT_NE(told.find(" and 1 more"), std::string::npos) << told;
+  EXPECT_EQ(told.find("wheel0"), std::string::npos) << told;
+  EXPECT_NE(scene.warnings[0].find("link2=\"wheel0\" reason=\"Always\"/>"), std::string::npos) << scene.warnings[0];
 }
 
 /// Bodies of a robot between which are only links without shapes, as "a b", that stay.
@@ -185,7 +249,7 @@ std::set<std::string> checkedPairs(const std::string& urdf) {
   std::vector<std::string> warnings;
   const SceneDescription description = describeRobot(robot, {}, binWithoutTop, {}, warnings);
   Scene scene = buildScene(description, planScene(description), coarse());
-  applyOverlapRule(robot, {}, scene);
+  applyOverlapRule(robot, {OverlapRule::Kind::kLeaveOut, {}}, scene);
   std::set<std::string> names;
   for (const PlannedPair& pair : scene.pairs)
     names.insert(scene.bodies[pair.body_a].name + " " + scene.bodies[pair.body_b].name);
@@ -250,9 +314,9 @@ TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
     const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
     Scene scene = buildScene(description, planScene(description), coarse());
     applyOverlapRule(robot, {}, scene);
-    EXPECT_EQ(scene.warnings.size(), 1U);
-    EXPECT_NE(scene.warnings.at(0).find("rail - car (within 1 mm)"), std::string::npos) << scene.warnings[0];
+    EXPECT_EQ(scene.warnings.size(), scene.pairs.empty() ? 1U : 0U) << "at rest it is CLEAR";
     if (scene.pairs.empty()) {
+      EXPECT_NE(scene.warnings.at(0).find("rail - car (within 1 mm)"), std::string::npos) << scene.warnings[0];
       EXPECT_EQ(scene.left_out.back().reason.text.find("come within 1 mm as neighbours at rest, and"), 0U);
     }
     return scene.pairs.size();
@@ -261,26 +325,39 @@ TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
   EXPECT_EQ(pairsOf(2.0), 0U);
 }
 
-/// Two shapes on sliders, with a shape on a third link between them that touches neither.
-std::vector<OverlappingPair> overlapOf(const std::string& first, const std::string& second, std::string& name) {
-  const RobotModel robot("<robot name='sliders'>" + box("base", "0.01 0.01 0.01", "0 0 9") + first + second +
-                         joint("base", "a", "prismatic", "0 0 0") + joint("base", "b", "prismatic", "0 0 0") +
-                         "</robot>");
+/// Two shapes on sliders. All of their surfaces coincide, so that no point of one is inside the other.
+TEST(OverlappingPairs, CopiesOfALinkMayOverlap) {
+  const RobotModel robot("<robot name='sliders'>" + box("base", "0.01 0.01 0.01", "0 0 9") + box("a", "1 1 1") +
+                         box("b", "1 1 1") + joint("base", "a", "prismatic", "0 0 0") +
+                         joint("base", "b", "prismatic", "0 0 0") + "</robot>");
   std::vector<std::string> warnings;
   const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
-  const Scene scene = buildScene(description, planScene(description), optionsForContacts());
-  std::vector<OverlappingPair> found = overlappingPairs(robot, scene, 0);
-  for (const OverlappingPair& pair : found) name = pairName(scene, scene.pairs[std::size_t(pair.pair)]);
-  return found;
+  for (const OverlapRule::Kind kind : {OverlapRule::Kind::kNeighbours, OverlapRule::Kind::kRest}) {
+    Scene scene = buildScene(description, planScene(description), optionsForContacts());
+    const std::vector<RestOverlap> found = applyOverlapRule(robot, {kind, {}}, scene);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].kind, RestOverlap::Kind::kOpen);
+    EXPECT_EQ(found[0].is_set_aside, kind == OverlapRule::Kind::kRest) << "nothing shows that they surely overlap";
+  }
 }
 
-/// All of their surfaces coincide, so that no point of one is inside the other.
-TEST(OverlappingPairs, CopiesOfALinkMayOverlap) {
-  std::string name;
-  const std::vector<OverlappingPair> found = overlapOf(box("a", "1 1 1"), box("b", "1 1 1"), name);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found.front().overlap, Overlap::kOpen);
-  EXPECT_EQ(name, "a - b");
+/// A capsule in a wall is as deep as its parts' union; beside it it is clear.
+TEST(OverlappingPairs, OfCapsules) {
+  const auto verdict = [](double x) {
+    const RobotModel robot(
+        "<robot name='r'>" + box("wall", "0.2 2 2") +
+        "<link name='arm'><collision><origin rpy='0 1.5707963267948966 0'/><geometry><capsule radius='0.1' "
+        "length='0.6'/></geometry></collision></link>" +
+        joint("wall", "arm", "floating", std::to_string(x) + " 0 0") + "</robot>");
+    std::vector<std::string> warnings;
+    const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+    Scene scene = buildScene(description, planScene(description), coarse());
+    const std::vector<RestOverlap> found = applyOverlapRule(robot, {}, scene);
+    return found.empty() ? -1.0 : found[0].depth;
+  };
+  EXPECT_EQ(verdict(0.5005), -1.0) << "its end is half a millimetre from the wall";
+  EXPECT_GT(verdict(0.499), 0.0);
+  EXPECT_GT(verdict(0.45), 0.03);
 }
 
 }  // namespace

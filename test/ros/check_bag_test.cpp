@@ -1,3 +1,4 @@
+#include <sensor_msgs/JointState.h>
 #include <std_msgs/Float64.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -42,6 +43,42 @@ TEST_F(CheckBag, FindsTheContactBetweenTwoSamples) {
   EXPECT_GE(of_contact, std::abs(std::stod(contact["depth"]) - kFinger));
   EXPECT_GT(of_contact, 0.001);
   EXPECT_LT(of_contact, 0.01);
+}
+
+/// A wheel that sinks into the base of its caster, and a lamp above.
+TEST_F(CheckBag, PairsThatAreSetAsideAreSaidAtTheEnd) {
+  const auto link = [](const std::string& name, const std::string& z, const std::string& shape) {
+    return "<link name='" + name + "'><collision><origin xyz='0 0 " + z + "'/><geometry>" + shape +
+           "</geometry></collision></link>";
+  };
+  const auto hinge = [](const std::string& parent, const std::string& child) {
+    return "<joint name='to_" + child + "' type='continuous'><parent link='" + parent + "'/><child link='" + child +
+           "'/></joint>";
+  };
+  write("cart.urdf", "<robot name='cart'>" + link("base", "0", "<box size='1 1 0.2'/>") +
+                         link("caster", "-0.5", "<sphere radius='0.01'/>") +
+                         link("wheel", "0", "<sphere radius='0.1'/>") + link("lamp", "2", "<sphere radius='0.1'/>") +
+                         hinge("base", "caster") + hinge("caster", "wheel") + hinge("base", "lamp") + "</robot>");
+  rosbag::Bag bag(path("cart.bag").string(), rosbag::bagmode::Write);
+  for (int i = 0; i < 20; ++i) {
+    sensor_msgs::JointState state;
+    state.header.stamp = ros::Time(kBegin + kSamplePeriod * i);
+    state.name = {"to_caster", "to_wheel", "to_lamp"};
+    state.position = {0.01 * i, 0.02 * i, 0.0};
+    bag.write("joint_states", state.header.stamp, state);
+  }
+  bag.close();
+  write("cart.yaml", "cache: false\n");
+  const ToolRun result = run("check-bag cart.bag --urdf cart.urdf --config cart.yaml --out made");
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  const std::string told = "\n1 pair that overlaps at rest is set aside: base - wheel (";
+  const std::size_t at = result.out.find(told);
+  ASSERT_NE(at, std::string::npos) << result.out;
+  EXPECT_GT(at, result.out.find("\nspeed "));
+  EXPECT_NE(result.out.find("\n<disable_collisions link1=\"base\" link2=\"wheel\" reason=\"Default\"/>\n", at),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(readText(path("made/summary.txt")), result.out);
 }
 
 TEST_F(CheckBag, HasARowForEveryCycleWithoutAGap) {

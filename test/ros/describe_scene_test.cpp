@@ -34,7 +34,7 @@ MonitorParameters cart() {
 
 std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<std::string>* left_out = nullptr,
                               std::vector<std::string>* warnings = nullptr) {
-  const DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
+  DescribedScene described = describeScene(parameters, [](const std::string&) { return Resource(); });
   const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
   const std::shared_ptr<const Scene> scene = buildDescribed(described, plan, parameters.scene, {});
   std::set<std::string> pairs;
@@ -110,12 +110,12 @@ TEST(DescribeScene, AResourceRootThatIsNotThereIsWarnedOf) {
 
 using Pairs = std::set<std::string>;
 
-TEST(DescribeScene, LinksThatOverlapAlwaysAreLeftOutByDefault) {
+TEST(DescribeScene, LinksThatOverlapAtRestAreSetAsideByDefault) {
   std::vector<std::string> left_out;
   EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
   EXPECT_EQ(std::count_if(
                 left_out.begin(), left_out.end(),
-                [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest and ", 0) == 0; }),
+                [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest, with ", 0) == 0; }),
             1);
 }
 
@@ -128,7 +128,7 @@ TEST(DescribeScene, TheyAreCheckedAndToldIfThatIsWanted) {
     EXPECT_NE(warnings[0].find("base - wheel ("), std::string::npos) << warnings[0];
   };
   MonitorParameters parameters = cart();
-  parameters.leave_out_overlapping = false;
+  parameters.overlapping_pairs = OverlapRule::Kind::kCheck;
   expectChecked(parameters);
   parameters = cart();
   parameters.pairs.checked = {{"wheel", "b*"}};

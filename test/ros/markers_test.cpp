@@ -93,10 +93,12 @@ TEST_F(MarkersTest, StatusTellsVerdictClearanceBoundAndAge) {
 }
 
 TEST_F(MarkersTest, StatusTellsStandingWarnings) {
-  warnings_ = {"the fixed frame moves"};
+  warnings_ = {"the fixed frame moves", "2 pairs are set aside: a - b, c - d\nand how to make it permanent"};
   const std::string text = status(draw({0.0, 0.5}));
   EXPECT_EQ(text.find("CLEAR, at least "), 0u) << text;
   EXPECT_NE(text.find("\nWarning: the fixed frame moves"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nWarning: 2 pairs are set aside: a - b, c - d"), std::string::npos) << text;
+  EXPECT_EQ(text.find("permanent"), std::string::npos) << "there is no room for it";
 }
 
 TEST_F(MarkersTest, ContactIsListedNumberedAndDeletedWhenItIsOld) {

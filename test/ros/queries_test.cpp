@@ -148,6 +148,7 @@ class MovedBaseTest : public ::testing::Test {
              "<child link='" + name + "'/><origin xyz='0 0 " + z + "'/><axis xyz='0 0 1'/></joint>";
     };
     MonitorParameters parameters = parseParameters({}, "~");
+    parameters.overlapping_pairs = OverlapRule::Kind::kCheck;  // arm and leaf are inside each other at rest
     parameters.urdf = "<robot name='r'><link name='world'/><link name='base'>" + ball +
                       "</link><joint name='stands' type='fixed'><parent link='world'/><child link='base'/></joint>" +
                       turning("arm", "0.4") + turning("leaf", "0.5") + "</robot>";

@@ -37,7 +37,7 @@ DescribedScene describe(const MonitorParameters& parameters) {
   return describeScene(parameters, [](const std::string&) { return Resource(); });
 }
 
-std::unique_ptr<MonitorLoop> loopOf(const DescribedScene& described, const MonitorParameters& parameters) {
+std::unique_ptr<MonitorLoop> loopOf(DescribedScene described, const MonitorParameters& parameters) {
   const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
   return std::make_unique<MonitorLoop>(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
 }

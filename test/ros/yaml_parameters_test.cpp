@@ -119,14 +119,17 @@ TEST(YamlParameters, PairsByRule) {
   EXPECT_EQ(parameters.pairs.allowed[1].a, "finger_*");
   EXPECT_EQ(parameters.pairs.allowed[1].b, "part");
   ASSERT_EQ(parameters.pairs.checked.size(), 1u);
-  EXPECT_FALSE(parameters.leave_out_overlapping);
+  EXPECT_EQ(parameters.overlapping_pairs, OverlapRule::Kind::kCheck);
+  EXPECT_EQ(parseParameters({}, "~").overlapping_pairs, OverlapRule::Kind::kNeighbours);
+  EXPECT_EQ(parseParameters(load("overlapping_pairs: rest"), "~").overlapping_pairs, OverlapRule::Kind::kRest);
+  EXPECT_EQ(parseParameters(load("overlapping_pairs: leave_out"), "~").overlapping_pairs, OverlapRule::Kind::kLeaveOut);
   for (const char* wrong : {"allowed_pairs: hand", "allowed_pairs: [hand, table]", "allowed_pairs: [[hand]]",
                             "allowed_pairs: [[hand, '']]", "allowed_pairs: [[hand, 5]]", "allowed_pairs: [[a, b, c]]"})
     EXPECT_NE(errorOf(wrong).find("expected a list of pairs of strings"), std::string::npos) << wrong;
   std::string many = "checked_pairs:\n";
   for (int i = 0; i <= 1000; ++i) many += "- [a, b]\n";
   EXPECT_NE(errorOf(many).find("expected at most 1000 pairs"), std::string::npos);
-  EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of check leave_out"), std::string::npos);
+  EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of neighbours rest leave_out check"), std::string::npos);
 }
 
 TEST(YamlParameters, WhatIsMeasuredOnTrianglesIsPreparedForIt) {

@@ -300,5 +300,23 @@ TEST_F(Tool, LearnPairsWritesAnSrdf) {
   expectRefused(command + "--out nowhere/no.srdf", "nowhere/no.srdf: cannot write");
 }
 
+/// Six arms about one axis: all of their 15 pairs touch in some states.
+TEST_F(Tool, LearnPairsListsAllThatTouch) {
+  std::string urdf = "<robot name='star'><link name='base'/>";
+  for (int i = 0; i < 6; ++i) {
+    const std::string arm = "arm" + std::to_string(i);
+    urdf += "<link name='" + arm +
+            "'><collision><origin xyz='1 0 0'/><geometry><sphere radius='0.3'/></geometry></collision></link><joint "
+            "name='j" +
+            arm + "' type='continuous'><parent link='base'/><child link='" + arm + "'/><axis xyz='0 0 1'/></joint>";
+  }
+  write("star.urdf", urdf + "</robot>");
+  const ToolRun result = run("learn-pairs --urdf star.urdf --max-error 0.05 --states 200 --out star.srdf");
+  ASSERT_EQ(result.exit_code, kDone) << result.error;
+  EXPECT_NE(result.out.find("touch            15\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\n  arm4 - arm5\n"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find(" more"), std::string::npos) << result.out;
+}
+
 }  // namespace
 }  // namespace sdf_ccd

@@ -108,7 +108,7 @@ std::string statusText(const PairStates& states, const CycleResult& result, cons
   const std::string unchecked = uncheckedPairs(states, result, cycle);
   if (!unchecked.empty()) text += "\n" + unchecked;
   for (const std::string& warning : warnings)
-    text += "\n" + wrapped("Warning: " + warning.substr(0, kLongestReason), kWidth);
+    text += "\n" + wrapped("Warning: " + warning.substr(0, std::min(kLongestReason, warning.find('\n'))), kWidth);
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace sdf_ccd {
 /// Status for a viewer: verdict and largest depth or clearance, error bound, age of the results, number of pairs that
 /// are not checked and why, warnings. Several lines.
 /// @param age  of the results [s].
-/// @param warnings  as in MonitorState.
+/// @param warnings  as in MonitorState; their first lines.
 std::string statusText(const PairStates& states, const CycleResult& result, const CycleContext& cycle, double age,
                        const std::vector<std::string>& warnings);
 

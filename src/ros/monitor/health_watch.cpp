@@ -37,7 +37,11 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
   }
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) warn(report.name + ": " + warning);
-  for (const std::string& warning : scene.warnings) warn(warning);
+  for (const std::string& warning : scene.warnings) {
+    const bool is_standing =
+        warning == setAsideText(described.overlaps) || warning == checkedOverlapsText(described.overlaps);
+    if (!is_standing) warn(warning);  // else watchStanding() tells
+  }
   if (const std::string none = whyNoPairs(scene); !none.empty()) ROS_WARN("%s", none.c_str());  // may change
   const std::string over = overBudget(scene);
   if (!over.empty()) warn(over);

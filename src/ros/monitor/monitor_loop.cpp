@@ -64,7 +64,10 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
       monitor_(world_->snapshot->scene, parameters.monitor),
       reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
       contacts_(monitor_.scene(), parameters.contact_join),
-      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {}
+      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {
+  OverlapTexts overlaps = overlapTexts(world_->scene());
+  setOverlaps(overlaps);
+}
 
 MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
@@ -88,6 +91,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
+  change->overlaps = overlapTexts(scene);
   constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
   CycleMotion& motion = change->cycle.motion;
   motion.X_WB.resize(scene.bodies.size());
@@ -110,6 +114,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   contacts_.adopt(change.contacts);
   change.distances->take(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
+  setOverlaps(change.overlaps);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;
   cycle_.end = change.cycle.end;
@@ -159,6 +164,18 @@ void MonitorLoop::guardReach() {
 void MonitorLoop::trackContacts(const CycleRequest& request) {
   if (!request.wantsContacts()) return contacts_.endAllAsLost();
   contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+}
+
+OverlapTexts MonitorLoop::overlapTexts(const Scene& scene) const {
+  if (described_.overlaps.empty()) return {};
+  const std::vector<RestOverlap> overlaps = overlapsIn(scene, described_.overlaps);
+  return {setAsideText(overlaps), checkedOverlapsText(overlaps)};
+}
+
+void MonitorLoop::setOverlaps(OverlapTexts& texts) {
+  if (texts.set_aside != overlaps_.set_aside) warnings_.set("overlaps_set_aside", texts.set_aside);
+  if (texts.checked != overlaps_.checked) warnings_.set("overlaps_checked", texts.checked);
+  std::swap(overlaps_, texts);
 }
 
 void MonitorLoop::watchFixedFrame() {

@@ -10,6 +10,12 @@
 
 namespace sdf_ccd {
 
+/// What the user must know of the pairs that overlap at rest: of those that are set aside, and of those that are
+/// checked.
+struct OverlapTexts {
+  std::string set_aside, checked;
+};
+
 /// The parts of a loop for another world, made in advance by MonitorLoop::prepare(); after MonitorLoop::adopt(), the
 /// loop's former parts, to be destroyed by a thread that is not time-critical.
 struct LoopChange {
@@ -21,6 +27,7 @@ struct LoopChange {
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
   TrackedCycle cycle;
+  OverlapTexts overlaps;
 };
 
 /// Runs the cycles of the monitor, from transforms to results, whatever the source of the transforms and the clock.
@@ -56,9 +63,9 @@ class MonitorLoop {
   /// @param change  made by prepare() since the last adopt().
   void adopt(LoopChange& change);
 
-  /// Of the world that it checks, and what others add. The loop's own: that the fixed frame moves in tf, like the base
-  /// of a mobile robot, and objects of the world are fixed in it, so that they move with it. It is kept from then on,
-  /// also while the robot rests.
+  /// Of the world that it checks, and what others add. The loop's own: which pairs overlap at rest, and whether they
+  /// are set aside or checked; that the fixed frame moves in tf, like the base of a mobile robot, and objects of the
+  /// world are fixed in it, so that they move with it. It is kept from then on, also while the robot rests.
   StandingWarnings& warnings() { return warnings_; }
   const StandingWarnings& warnings() const { return warnings_; }
 
@@ -92,6 +99,8 @@ class MonitorLoop {
   void run(const CycleRequest& request);
   void guardReach();
   void trackContacts(const CycleRequest& request);
+  OverlapTexts overlapTexts(const Scene& scene) const;
+  void setOverlaps(OverlapTexts& texts);
   void watchFixedFrame();
   std::string movingFixedFrame() const;
 
@@ -109,6 +118,7 @@ class MonitorLoop {
   ContactTracker contacts_;
   std::unique_ptr<PairDistances> distances_;
   StandingWarnings warnings_;
+  OverlapTexts overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested
 };
 

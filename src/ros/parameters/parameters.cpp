@@ -181,7 +181,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
 
   parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};
-  parameters.leave_out_overlapping = reader.choice("overlapping_pairs", {"check", "leave_out"}, 1) == 1;
+  parameters.overlapping_pairs = static_cast<OverlapRule::Kind>(
+      reader.choice("overlapping_pairs", {"neighbours", "rest", "leave_out", "check"}, 0));
 
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");

@@ -11,6 +11,7 @@
 #include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
+#include "robot_monitor/overlapping_pairs.h"
 #include "ros/messages/markers.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_object.h"
@@ -61,7 +62,7 @@ struct MonitorParameters {
   bool allow_http = false;  ///< whether meshes may be downloaded
   RobotSceneOptions robot;
   PairRules pairs;
-  bool leave_out_overlapping = true;  ///< see OverlapRule
+  OverlapRule::Kind overlapping_pairs = OverlapRule::Kind::kNeighbours;
   std::vector<WorldObject> world;
   std::string world_file;                   ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name

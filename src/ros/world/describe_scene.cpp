@@ -108,8 +108,8 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     if (pair.proved && !isProof(pair.reason) && matchesAny(parameters.pairs.checked, pair.body_a, pair.body_b))
       pair.reason = kRigidlyJoined;
   }
-  described.overlaps = {parameters.leave_out_overlapping, parameters.pairs.checked};
-  for (const auto& [a, b] : srdf.enabled) described.overlaps.kept.push_back({a, b});
+  described.overlap_rule = {parameters.overlapping_pairs, parameters.pairs.checked};
+  for (const auto& [a, b] : srdf.enabled) described.overlap_rule.kept.push_back({a, b});
   described.unreachable = unreachablePairs(*robot, described.scene.bodies, proved);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
@@ -123,11 +123,11 @@ void requireNoTile(const std::string& body, const std::string& tiles_begin) {
                               " are reserved for the live map's tiles");
 }
 
-std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
+std::shared_ptr<const Scene> buildDescribed(DescribedScene& described, const ScenePlan& plan,
                                             const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress) {
   Scene scene = buildScene(described.scene, plan, options, progress);
-  applyOverlapRule(*described.robot, described.overlaps, scene);
+  described.overlaps = applyOverlapRule(*described.robot, described.overlap_rule, scene);
   return std::make_shared<const Scene>(std::move(scene));
 }
 

@@ -22,7 +22,8 @@ struct DescribedScene {
   std::string base_joint;                    ///< the SRDF's virtual joint of the root link; empty if there is none
   std::string fixed_frame;                   ///< without leading slash
   std::string tiles_begin;                   ///< prefix of the names of a live map's tiles; empty: there is no live map
-  OverlapRule overlaps;                      ///< for pairs of links
+  OverlapRule overlap_rule;                  ///< for pairs of links
+  std::vector<RestOverlap> overlaps;         ///< found by buildDescribed()
   std::vector<UnreachablePair> unreachable;  ///< left out because of the URDF, also if a rule allows them to touch
   std::vector<std::string> warnings;
 
@@ -43,9 +44,9 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
 /// @throws std::invalid_argument if the body's name is reserved for a live map's tiles.
 void requireNoTile(const std::string& body, const std::string& tiles_begin);
 
-/// Builds the planned scene, with the same options, then leaves out pairs that always overlap, if that is wanted.
+/// Builds the planned scene, with the same options, then sets aside pairs that overlap at rest, as the rule says.
 /// @param progress  called with the body's name and the fraction of all bodies done.
-std::shared_ptr<const Scene> buildDescribed(const DescribedScene& described, const ScenePlan& plan,
+std::shared_ptr<const Scene> buildDescribed(DescribedScene& described, const ScenePlan& plan,
                                             const BodyOptions& options,
                                             const std::function<void(const std::string&, double)>& progress);
 

@@ -201,7 +201,13 @@ void run(const Arguments& arguments) {
     of_motion.push_back(std::to_string(ignored.refused) + " transforms were refused, the last as " + ignored.refusal);
   std::vector<std::string> standing;
   loop.warnings().copyTo(standing);
-  of_motion.insert(of_motion.end(), standing.begin(), standing.end());
+  std::string lasting;  // at the end, where they are read
+  for (const std::string& warning : standing) {
+    lasting += warning + "\n";
+    const bool is_of_scene =
+        std::find(scene->warnings.begin(), scene->warnings.end(), warning) != scene->warnings.end();
+    if (!is_of_scene) of_motion.push_back(warning);
+  }
   for (const std::string& warning : of_motion) {
     std::cerr << "sdf_ccd: warning: " << warning << std::endl;
     warnings.push_back(warning);
@@ -218,10 +224,11 @@ void run(const Arguments& arguments) {
       "bag              {}: {:.3f} s from {}, followed by {}\n"
       "robot            {}: {} bodies with the world's, {} pairs, fixed frame {}\n"
       "{}"
-      "speed            {:.1f} s in {}: {:.3g} times real time\n",
+      "speed            {:.1f} s in {}: {:.3g} times real time\n"
+      "{}",
       arguments.bag, length, timeText(motion.begin()), motion.source(), described.robot->urdf().getName(),
       scene->bodies.size(), scene->pairs.size(), described.fixed_frame, statistics.summary(motion.begin()), length,
-      durationText(checked.seconds), length / checked.seconds);
+      durationText(checked.seconds), length / checked.seconds, lasting);
   std::cout << text << std::flush;
   files.summary.stream() << expected << text;
   files.plan.stream() << planText(*scene, warnings);

@@ -13,7 +13,7 @@ DescribedScene describeMonitored(const MonitorParameters& parameters, const std:
 
 void prepareMonitored(const MonitorConfig& config, const std::string& directory) {
   const MonitorParameters parameters = readParameters(config);
-  const DescribedScene described = describeMonitored(parameters, config.urdf);
+  DescribedScene described = describeMonitored(parameters, config.urdf);
   const auto build = [&](const ScenePlan& plan, const BodyOptions& options, const SceneProgress& progress) {
     return buildDescribed(described, plan, options, progress);
   };
