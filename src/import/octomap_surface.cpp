@@ -8,14 +8,18 @@
 
 namespace sdf_ccd {
 
-TriangleMesh loadOctomapSurface(const std::string& path, double& resolution) {
+TriangleMesh parseOctomapSurface(const std::string& bytes, const std::string& name, double& resolution) {
   try {
-    ReadMesh read = readSandboxed("octomap", readRegularFile(path));
+    ReadMesh read = readSandboxed("octomap", bytes);
     resolution = read.resolution;
     return std::move(read.mesh);
   } catch (const std::exception& error) {
-    throw std::runtime_error(shownText(path) + ": " + error.what());
+    throw std::runtime_error(shownText(name) + ": " + error.what());
   }
+}
+
+TriangleMesh loadOctomapSurface(const std::string& path, double& resolution) {
+  return parseOctomapSurface(readNamedFile(path), path, resolution);
 }
 
 }  // namespace sdf_ccd

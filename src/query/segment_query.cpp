@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/infinity.h"
+#include "common/number_text.h"
 #include "representation_queries.h"
 #include "segment_reach.h"
 
@@ -12,8 +13,8 @@ namespace sdf_ccd {
 
 void checkIsovalue(const DistanceField& field, double sigma) {
   if (std::abs(sigma) <= field.band()) return;
-  throw std::invalid_argument("segment query: isovalue " + std::to_string(sigma) +
-                              " m lies outside the field's band of " + std::to_string(field.band()) + " m");
+  throw std::invalid_argument("segment query: isovalue " + numberText(sigma) + " m lies outside the field's band of " +
+                              numberText(field.band()) + " m");
 }
 
 void segmentIntervals(const DistanceField& field, const Segment& segment, const SegmentOptions& options,

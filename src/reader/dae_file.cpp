@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "collada_mesh.h"
 #include "common/pi.h"
+#include "common/read_number.h"
 #include "xml_numbers.h"
 
 namespace sdf_ccd {
@@ -196,11 +198,11 @@ double meterOf(const XMLElement& root) {
   const XMLElement* unit = asset ? asset->FirstChildElement("unit") : nullptr;
   const char* text = unit ? unit->Attribute("meter") : nullptr;
   if (!text) return 1;
-  double meter = 0;
-  if (unit->QueryDoubleAttribute("meter", &meter) != tinyxml2::XML_SUCCESS || !std::isfinite(meter) || meter <= 0) {
+  const std::optional<double> meter = wholeNumber(text);
+  if (!meter || !std::isfinite(*meter) || *meter <= 0) {
     throw std::runtime_error("unit meter=\"" + std::string(text) + "\" is not a positive number");
   }
-  return meter;
+  return *meter;
 }
 
 }  // namespace

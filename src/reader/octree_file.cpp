@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/number_text.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -123,7 +125,7 @@ OctreeFile checkOctreeFile(const std::string& bytes) {
                           : full ? readHead(bytes, OctreeFile::Format::kFull)
                                  : readLegacyHead(bytes);
   if (!std::isfinite(file.resolution) || file.resolution <= 0.0) {
-    throw std::runtime_error("its resolution is " + std::to_string(file.resolution) + " m");
+    throw std::runtime_error("its resolution is " + numberText(file.resolution) + " m");
   }
   if (full && file.type != "OcTree" && file.type != "ColorOcTree") {
     throw std::runtime_error("it holds a tree of type " + file.type + "; only OcTree and ColorOcTree are read");

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "common/read_number.h"
 
 namespace sdf_ccd {
 namespace {
@@ -34,7 +35,7 @@ std::string_view takeLine(std::string_view& text) {
 std::optional<double> takeNumber(std::string_view& text) {
   const std::string_view word = takeWord(text);
   char* end = nullptr;
-  const double value = word.empty() ? 0.0 : std::strtod(word.data(), &end);
+  const double value = word.empty() ? 0.0 : readNumber(word.data(), &end);
   if (word.empty() || end != word.data() + word.size()) return std::nullopt;
   return value;
 }

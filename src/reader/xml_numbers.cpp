@@ -4,6 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "common/read_number.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -55,7 +57,7 @@ std::uint64_t countOf(const XMLElement& element, const char* name, std::uint64_t
 
 std::vector<double> numbersOf(const XMLElement& element) {
   std::vector<double> numbers;
-  forEachWord(element, [&](const char* text, char** end) { numbers.push_back(std::strtod(text, end)); });
+  forEachWord(element, [&](const char* text, char** end) { numbers.push_back(readNumber(text, end)); });
   return numbers;
 }
 

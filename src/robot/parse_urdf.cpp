@@ -11,6 +11,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "common/number_text.h"
+#include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "joint_tree.h"
 #include "misplaced_elements.h"
@@ -64,6 +65,29 @@ void makeRobotReadable(tinyxml2::XMLElement& robot, std::vector<std::string>& wa
   makeTree(robot, warnings);
 }
 
+/// Whether it has an element of xacro, definitions included.
+bool hasMacros(const tinyxml2::XMLElement& element) {
+  if (std::string(element.Name()).rfind("xacro:", 0) == 0) return true;
+  for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+    if (hasMacros(*child)) return true;
+  return false;
+}
+
+/// What a document is that is no URDF, or is none yet; empty if nothing is known about it.
+std::string otherKind(const std::string& xml) {
+  tinyxml2::XMLDocument document;
+  if (xml.size() > kMaxXmlBytes || document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) return {};
+  const tinyxml2::XMLElement* root = document.RootElement();
+  if (!root) return {};
+  const std::string name = root->Name();
+  if (name == "sdf" || name == "gazebo")
+    return "it is a model of Gazebo (SDF, its root is <" + name + ">), not a URDF: give the URDF of the same robot";
+  if (name != "robot") return "its root is <" + shownText(name) + ">, that of a URDF is <robot>";
+  if (hasMacros(*root))
+    return "it is a xacro file that has not been expanded: run `xacro FILE > robot.urdf`, and give robot.urdf";
+  return {};
+}
+
 /// The document as written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents.
 std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
   requireXmlSize(xml);
@@ -78,15 +102,20 @@ std::string wellFormed(const std::string& xml, std::vector<std::string>& warning
   }
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);
-  return printer.CStr();
+  return soundText(printer.CStr());  // again: references like &#27; are characters by now
 }
 
 std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<std::string>& warnings) {
+  const auto refuse = [&](const std::string& reason) {
+    const std::string kind = otherKind(soundText(xml));
+    throw std::runtime_error("the URDF cannot be parsed: " + kind + (kind.empty() ? "" : " (") + reason +
+                             (kind.empty() ? "" : ")"));
+  };
   std::string text;
   try {
     text = wellFormed(xml, warnings);
   } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("the URDF cannot be parsed: ") + error.what());
+    refuse(error.what());
   }
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
@@ -94,13 +123,9 @@ std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
-    const std::string errors = collector.errors().empty() ? "" : collector.errors() + "; ";
-    throw std::runtime_error("the URDF cannot be parsed: " + errors + error.what());
+    refuse((collector.errors().empty() ? "" : collector.errors() + "; ") + error.what());
   }
-  if (!model || !model->getRoot()) {
-    const std::string reason = collector.errors().empty() ? "it is no XML document" : collector.errors();
-    throw std::runtime_error("the URDF cannot be parsed: " + reason);
-  }
+  if (!model || !model->getRoot()) refuse(collector.errors().empty() ? "it is no XML document" : collector.errors());
   return model;
 }
 

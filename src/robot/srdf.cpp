@@ -27,7 +27,7 @@ using tinyxml2::XMLElement;
 
 std::string attribute(const XMLElement& element, const char* name) {
   const char* value = element.Attribute(name);
-  return value ? value : "";
+  return value ? soundText(value) : "";
 }
 
 /// Reads elements with what they need to say. One that does not say it costs nothing else.

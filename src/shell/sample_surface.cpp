@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "common/infinity.h"
+#include "common/number_text.h"
 #include "edge_sampling.h"
 #include "geometry/solid_boundary.h"
 #include "measure_shell.h"
@@ -16,17 +17,15 @@ namespace sdf_ccd {
 namespace {
 
 void validate(const ShellOptions& options) {
-  std::ostringstream message;
-  if (!(options.spacing > 0) || !std::isfinite(options.spacing)) {
-    message << "a shell's spacing must be finite and positive, not " << options.spacing << " m";
-  } else if (!(options.vertex_spacing >= 0) || !std::isfinite(options.vertex_spacing)) {
-    message << "a shell's vertex spacing must be finite and not negative, not " << options.vertex_spacing << " m";
-  } else if (!(options.edge_gap >= 0) || !std::isfinite(options.edge_gap)) {
-    message << "a shell's edge gap must be finite and not negative, not " << options.edge_gap << " m";
-  } else {
-    return;
-  }
-  throw std::invalid_argument(message.str());
+  const auto refuse = [](const std::string& what, double value) {
+    throw std::invalid_argument("a shell's " + what + ", not " + numberText(value) + " m");
+  };
+  if (!(options.spacing > 0) || !std::isfinite(options.spacing))
+    refuse("spacing must be finite and positive", options.spacing);
+  if (!(options.vertex_spacing >= 0) || !std::isfinite(options.vertex_spacing))
+    refuse("vertex spacing must be finite and not negative", options.vertex_spacing);
+  if (!(options.edge_gap >= 0) || !std::isfinite(options.edge_gap))
+    refuse("edge gap must be finite and not negative", options.edge_gap);
 }
 
 /// Approximate number of points of a sampling without gaps of this spacing, measured on spheres.
@@ -94,13 +93,13 @@ struct Extent {
 void requireRoom(const Extent& extent, const ShellOptions& options) {
   const double on_edges = extent.edges > 0.0 ? edgePoints(extent.edges, extent.edge_radius) : 0.0;
   if (extent.surface_points + on_edges <= static_cast<double>(options.max_points)) return;
-  std::ostringstream message;
-  message << "a point every " << options.spacing << " m on " << extent.area << " m^2";
-  if (extent.surface_points > facePoints(extent.area, options.spacing)) message << " with many slivers";
-  if (on_edges > 0.0)
-    message << " and every " << 2.0 * extent.edge_radius << " m along " << extent.edges << " m of edges";
-  message << " needs more than " << options.max_points << " points";
-  throw std::length_error(message.str());
+  std::string message = "a point every " + numberText(options.spacing) + " m on " + numberText(extent.area) + " m^2";
+  if (extent.surface_points > facePoints(extent.area, options.spacing)) message += " with many slivers";
+  if (on_edges > 0.0) {
+    message +=
+        " and every " + numberText(2.0 * extent.edge_radius) + " m along " + numberText(extent.edges) + " m of edges";
+  }
+  throw std::length_error(message + " needs more than " + std::to_string(options.max_points) + " points");
 }
 
 }  // namespace

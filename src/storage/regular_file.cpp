@@ -8,9 +8,12 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
+#include "common/shown_text.h"
 #include "sdf_ccd/common/cancel.h"
 #include "storage/descriptor.h"
+#include "storage/linkless_path.h"
 
 namespace sdf_ccd {
 namespace {
@@ -36,15 +39,7 @@ void requireRegular(const struct stat& status) {
   throw std::runtime_error("larger than " + std::to_string(max_bytes >> 20) + " MiB");
 }
 
-}  // namespace
-
-std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
-  // Checked before opening, as opening some devices has effects; and after, as it may be another file by then.
-  struct stat status;
-  if (::stat(path.c_str(), &status) != 0) failToOpen(path, errno);
-  requireRegular(status);
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (!file.isOpen() || ::fstat(file.number(), &status) != 0) failToOpen(path, errno);
+std::string readAll(const Descriptor& file, const struct stat& status, std::size_t max_bytes) {
   requireRegular(status);
   if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > max_bytes) failTooLarge(max_bytes);
 
@@ -62,6 +57,41 @@ std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
     bytes.resize(have);
     if (count == 0) return bytes;
     if (have > max_bytes) failTooLarge(max_bytes);
+  }
+}
+
+constexpr int kReadOnly = O_RDONLY | O_NONBLOCK | O_NOCTTY;
+
+}  // namespace
+
+std::string readRegularFile(const std::string& path, std::size_t max_bytes) {
+  // Checked before opening, as opening some devices has effects; and after, as it may be another file by then.
+  struct stat status;
+  if (::stat(path.c_str(), &status) != 0) failToOpen(path, errno);
+  requireRegular(status);
+  const Descriptor file(::open(path.c_str(), kReadOnly | O_CLOEXEC));
+  if (!file.isOpen() || ::fstat(file.number(), &status) != 0) failToOpen(path, errno);
+  return readAll(file, status, max_bytes);
+}
+
+std::string readNamedFile(const std::string& path, std::size_t max_bytes) {
+  try {
+    return readRegularFile(path, max_bytes);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(shownText(path) + ": " + error.what());
+  }
+}
+
+std::string readWithoutLinks(const std::string& path, std::size_t max_bytes) {
+  struct stat status;
+  if (::lstat(path.c_str(), &status) != 0) failToOpen(path, errno);
+  requireRegular(status);
+  try {
+    const Descriptor file = openWithoutLinks(path, kReadOnly);
+    if (::fstat(file.number(), &status) != 0) failToOpen(path, errno);
+    return readAll(file, status, max_bytes);
+  } catch (const std::system_error& error) {
+    failToOpen(path, error.code().value());
   }
 }
 

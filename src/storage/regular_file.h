@@ -12,4 +12,11 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 /// @throws std::runtime_error with the reason, without the path; Cancelled.
 std::string readRegularFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
 
+/// The same; what it throws begins with the path.
+std::string readNamedFile(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
+
+/// The same, without the path in errors, for a path no component of which may be a symbolic link (see
+/// openWithoutLinks()).
+std::string readWithoutLinks(const std::string& path, std::size_t max_bytes = kMaxFileBytes);
+
 }  // namespace sdf_ccd

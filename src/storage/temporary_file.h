@@ -14,11 +14,14 @@ class TemporaryFile {
   /// @param target  the location that it is for; links are not followed.
   /// @throws std::system_error if none can be made in the target's directory.
   explicit TemporaryFile(const std::string& target);
+  /// The same for a target named `name` in an open folder, wherever that is by now.
+  TemporaryFile(Descriptor folder, const std::string& name);
   ~TemporaryFile();  ///< without place() the file is removed
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  /// The path by which this process, and others of the same user while it lives, open it for writing.
+  /// The path by which this process, and others of the same user while it lives, open it for writing; that of an open
+  /// folder's file may no longer lead to it.
   const std::string& path() const { return path_; }
 
   /// The file itself, open for writing.
@@ -29,10 +32,12 @@ class TemporaryFile {
   void place();
 
  private:
-  void openNamed();
+  void open(const std::string& directory);
+  void openNamed(const std::string& directory);
   void giveName();
 
-  std::string target_;
+  Descriptor folder_;
+  std::string target_;  // its name in the folder
   std::string path_;
   std::string name_;  // beside the target; empty if it has none
   Descriptor descriptor_;

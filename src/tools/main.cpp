@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <clocale>
 #include <exception>
 #include <iostream>
 #include <new>
 #include <string>
 
 #include "commands.h"
+#include "plain_output.h"
 
 namespace {
 
@@ -18,9 +20,24 @@ int refuse(std::string message) {
   return kBadInput;
 }
 
-}  // namespace
+/// Refuses an option that is given without a value, as by a script whose variable is empty.
+void refuseEmptyValues(CLI::App& app) {
+  const auto isGiven = [](const std::string& value) {
+    return value.empty() ? std::string("it is empty: give a value, or leave the option out") : std::string();
+  };
+  for (const CLI::Option* option : static_cast<const CLI::App&>(app).get_options())
+    app.get_option(option->get_name())->check(isGiven, "");
+  for (CLI::App* part : app.get_subcommands([](const CLI::App*) { return true; })) refuseEmptyValues(*part);
+}
 
-int main(int argc, char** argv) {
+/// @return the exit code: another one if standard output did not take everything, as on a full disk.
+int finished(int code) {
+  if (std::cout.flush()) return code;
+  refuse("standard output did not take everything");
+  return code == 0 ? kPartlyDone : code;
+}
+
+int runTool(int argc, char** argv) {
   CLI::App app("Signed distance fields of robots and worlds, and queries against them. Lengths are metres.", "sdf_ccd");
   app.require_subcommand(1);
   app.set_version_flag("--version", "sdf_ccd " SDF_CCD_VERSION);
@@ -38,6 +55,7 @@ int main(int argc, char** argv) {
   footer += " Built without ROS: check-bag and plot-bag are left out.";
 #endif
   app.footer(footer);
+  refuseEmptyValues(app);
   try {
     const std::string first = argc > 1 ? argv[1] : "-";
     const auto is_first = [&](const CLI::App* command) { return command->get_name() == first; };
@@ -54,4 +72,12 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return refuse(error.what());
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::setlocale(LC_NUMERIC, "C");  // also where a library has chosen another: numbers in options, tables and plots
+  const sdf_ccd::tools::PlainOutput out(std::cout), error(std::cerr);
+  return finished(runTool(argc, argv));
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "common/shown_text.h"
+
 namespace sdf_ccd::tools {
 namespace {
 
@@ -14,10 +16,12 @@ constexpr int kWidth = 40;
 }  // namespace
 
 ProgressBar::ProgressBar(std::string what)
-    : what_(std::move(what)), on_terminal_(::isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+    : what_(shownText(std::move(what))),
+      on_terminal_(::isatty(STDERR_FILENO)),
+      start_(std::chrono::steady_clock::now()) {}
 
 ProgressBar::~ProgressBar() {
-  if (on_terminal_ && shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+  if (on_terminal_ && shown_ >= 0) std::clog << "\r\033[K" << std::flush;
 }
 
 void ProgressBar::operator()(double share) {
@@ -28,7 +32,7 @@ void ProgressBar::operator()(double share) {
   shown_ = percent;
   if (on_terminal_) {
     const int done = kWidth * percent / 100;
-    std::cerr << "\r\033[K" << what_ << " [" << std::string(done, '#') << std::string(kWidth - done, ' ') << "] "
+    std::clog << "\r\033[K" << what_ << " [" << std::string(done, '#') << std::string(kWidth - done, ' ') << "] "
               << percent << " %" << std::flush;
   } else {
     std::cerr << what_ << ": " << percent << " %" << std::endl;

@@ -2,12 +2,12 @@
 
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+
+#include "common/read_number.h"
+#include "storage/regular_file.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -20,15 +20,6 @@ std::vector<std::string> split(const std::string& line) {
   for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
   if (!line.empty() && line.back() == ',') words.emplace_back();
   return words;
-}
-
-/// The program keeps the C locale, so the point is always the decimal separator.
-std::optional<double> number(const std::string& word) {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  const bool has_digits = end != word.c_str();
-  while (*end == ' ' || *end == '\t') ++end;
-  return has_digits && *end == '\0' ? std::make_optional(value) : std::nullopt;
 }
 
 /// True only for the exact names of the columns: any other line without numbers means another format of data.
@@ -46,7 +37,7 @@ Segment parseSegment(const std::vector<std::string>& words) {
   }
   double values[kColumns];
   for (std::size_t i = 0; i < kColumns; ++i) {
-    const std::optional<double> value = number(words[i]);
+    const std::optional<double> value = wholeNumber(words[i]);
     if (!value) throw std::runtime_error("\"" + words[i] + "\" is not a number");
     if (!std::isfinite(*value)) throw std::runtime_error("\"" + words[i] + "\" is not finite");
     values[i] = *value;
@@ -59,10 +50,7 @@ Segment parseSegment(const std::vector<std::string>& words) {
 }  // namespace
 
 std::vector<Segment> readSegments(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw std::runtime_error(path + ": is a directory");
-  std::ifstream stream(path);
-  if (!stream) throw std::runtime_error(path + ": cannot be opened");
+  std::istringstream stream(readNamedFile(path));
   std::vector<Segment> segments;
   std::size_t line_number = 0;
   for (std::string line; std::getline(stream, line);) {

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
 #include "common/number_text.h"
+#include "common/read_number.h"
 #include "field/opening_caps.h"
 #include "picture.h"
 #include "print.h"
@@ -145,12 +146,11 @@ void drawLengthScale(Picture& picture, const Raster& raster, const Slice& slice)
 
 Slice parseSlice(const std::string& text) {
   const bool has_axis = text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=';
-  char* end = nullptr;
-  const double offset = has_axis ? std::strtod(text.c_str() + 2, &end) : 0.0;
-  if (!has_axis || end == text.c_str() + 2 || *end != '\0' || !std::isfinite(offset)) {
+  const std::optional<double> offset = has_axis ? wholeNumber(text.substr(2)) : std::nullopt;
+  if (!offset || !std::isfinite(*offset)) {
     throw std::invalid_argument("--slice \"" + text + "\" is not of the form x=0.1, y=0.1 or z=0.1");
   }
-  return {text[0] - 'x', offset};
+  return {text[0] - 'x', *offset};
 }
 
 std::string drawSlice(const DistanceField& field, const Slice& slice) {

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <yaml-cpp/yaml.h>
 
 #include "common/number_text.h"
+#include "common/read_number.h"
 #include "common/setting_keys.h"
 #include "sdf_ccd/common/eigen_types.h"
 
@@ -99,10 +103,28 @@ class YamlMap {
     return keys;
   }
 
+  /// Infinity is .inf in YAML.
+  static std::optional<double> numberOf(std::string text) {
+    const std::size_t dot = text.find('.');
+    if (dot != std::string::npos && (text[dot + 1] == 'i' || text[dot + 1] == 'n')) text.erase(dot, 1);
+    return wholeNumber(text);
+  }
+  template <class T>
+  static bool isInteger(double number) {
+    return number == std::floor(number) && std::abs(number) <= double(std::numeric_limits<T>::max());
+  }
+
   template <class T>
   T convert(const YAML::Node& value, const std::string& key) const {
     try {
-      return value.as<T>();
+      if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+        // Not by the parser, whose streams follow the program's locale.
+        const std::optional<double> number = value.IsScalar() ? numberOf(value.Scalar()) : std::nullopt;
+        if (!number || (std::is_integral_v<T> && !isInteger<T>(*number))) throw YAML::BadConversion(value.Mark());
+        return static_cast<T>(*number);
+      } else {
+        return value.as<T>();
+      }
     } catch (const YAML::Exception&) {
       const std::string given = value.IsScalar() ? "\"" + value.Scalar() + "\"" : "a list or map";
       fail(value, "`" + key + "`: " + given + " is not a valid value");

@@ -8,6 +8,7 @@
 
 #include "oracle/failure.h"
 #include "oracle/files.h"
+#include "oracle/german_locale.h"
 #include "oracle/parameter_name.h"
 
 namespace sdf_ccd {
@@ -53,6 +54,16 @@ TEST(SimulationFile, AMillionMetresAwayContactIsTheSameToTheLastBit) {
   }
   EXPECT_GT(contacts, 50);
   EXPECT_EQ((near.states()[1].X_OB.matrix() - far.states()[1].X_OB.matrix()).norm(), 0.0);
+}
+
+TEST(SimulationFile, IsTheSameInEveryLocale) {
+  SDF_CCD_NEEDS_GERMAN_LOCALE();
+  const test::GermanLocale german;
+  const SimulationSetup setup = parseSimulation(placedAt("0", "0", "0.0625"), ".");
+  EXPECT_EQ(setup.step, 0.001);
+  EXPECT_EQ(setup.duration, 0.5);
+  EXPECT_EQ(setup.states[1].velocity, Vector3d(0.5, 0.0, -1.0));
+  EXPECT_THROW(parseSimulation(replaced(placedAt("0", "0", "0.0625"), "0.5", "0,5"), "."), std::runtime_error);
 }
 
 TEST(SimulationFile, RepeatMakesCopiesThatShareAShape) {

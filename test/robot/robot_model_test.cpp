@@ -18,6 +18,13 @@ using test::kArm;
 using test::kPi;
 using test::twoLinks;
 
+// Names go into logs, and so to a terminal.
+TEST(RobotModelTexts, NamesHoldNoControlCharacters) {
+  const RobotModel robot("<robot name='&#27;c'><link name='&#27;[2Ja&#7;'/></robot>");
+  EXPECT_EQ(robot.urdf().getName(), "?c");
+  EXPECT_EQ(robot.root(), "?[2Ja?");
+}
+
 std::size_t indexOf(const RobotModel& robot, const std::string& link) {
   for (std::size_t i = 0; i < robot.links().size(); ++i) {
     if (robot.links()[i] == link) return i;

@@ -1,5 +1,10 @@
+#include <fcntl.h>
+#include <stdio.h>
+
+#include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
@@ -83,6 +88,65 @@ TEST_F(ChangingSceneFilesTest, NoSpellingLeadsOutOfTheRoots) {
   test::writeText(folder_ / "in side.off", test::off(test::icosphere(0.1, 1)));
   bad.mesh_resources = {"file://" + (folder_ / "IN%20side.off").string()};
   EXPECT_EQ(refusal(bad), "");
+}
+
+/// Swaps a folder of the root for a link that leads out of it, over and over.
+class SwappedFolder {
+ public:
+  SwappedFolder(const std::filesystem::path& root, const std::filesystem::path& outside)
+      : folder_((root / "d").string()), link_((root / "e").string()) {
+    std::filesystem::create_directory(folder_);
+    std::filesystem::create_symlink(outside, link_);
+    thread_ = std::thread([this] {
+      while (!ends_) ::renameat2(AT_FDCWD, folder_.c_str(), AT_FDCWD, link_.c_str(), RENAME_EXCHANGE);
+    });
+  }
+  ~SwappedFolder() {
+    ends_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::string folder_, link_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+TEST_F(ChangingSceneFilesTest, NoLinkThatIsSwappedMeanwhileLeadsOutOfTheRoots) {
+  const test::TemporaryDirectory outside;
+  test::writeText(outside / "secret.off", "secret");
+  const SwappedFolder swapped(folder_.path(), outside.path());
+  const std::string saved = (folder_ / "d/x.scene").string(), secret = (folder_ / "d/secret.off").string();
+  int written = 0, refused = 0, leaked = 0, outside_count = 0;
+  for (int i = 0; i < 3000; ++i) {
+    try {
+      files_->write(saved, "a world");
+      ++written;
+    } catch (const std::runtime_error&) {
+      ++refused;
+    }
+    outside_count += std::filesystem::remove(outside / "x.scene");
+    try {
+      leaked += files_->resource(secret).bytes == "secret";
+      leaked += files_->read(secret).bytes == "secret";
+    } catch (const std::runtime_error&) {
+    }
+  }
+  EXPECT_EQ(outside_count, 0);
+  EXPECT_EQ(leaked, 0);
+  EXPECT_GT(written, 0);
+  EXPECT_GT(refused, 0);
+}
+
+TEST_F(ChangingSceneFilesTest, AWorldIsWrittenWholeOrNotAtAll) {
+  const std::filesystem::path file = folder_ / "w.scene";
+  files_->write(file.string(), "first");
+  files_->write("file://" + file.string(), "second");
+  EXPECT_EQ(test::readText(file), "second");
+  std::filesystem::create_directory(folder_ / "folder.scene");
+  EXPECT_THROW(files_->write((folder_ / "folder.scene").string(), "text"), std::runtime_error);
+  EXPECT_THROW(files_->write((folder_ / "absent/w.scene").string(), "text"), std::runtime_error);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_.path()), {}), 2);
 }
 
 TEST_F(ChangingSceneFilesTest, ARootMayComeLater) {

@@ -1,8 +1,10 @@
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 
 #include <rosbag/view.h>
@@ -19,6 +21,52 @@ using namespace test;
 namespace fs = std::filesystem;
 
 constexpr const char* kFine = "cache: false\nfield: {cell_size: 0.0007}\n";  // takes long to build
+
+/// The bytes of a bag with one number of 32 bits set to another value.
+std::string withNumber(std::string bytes, std::size_t at, std::uint32_t value) {
+  bytes.replace(at, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
+  return bytes;
+}
+
+/// One time in the index that was hours too early once kept the tool busy for half a minute.
+TEST_F(CheckBag, DamagedBagsAreRefusedAtOnce) {
+  const std::string bytes = readText(path("arm.bag")), op = "op=";
+  const std::size_t index = bytes.find(op + '\4'), first = bytes.find("ver=", index) + 12;  // behind the data's length
+  ASSERT_NE(index, std::string::npos);
+  write("early.bag", withNumber(bytes, first, 1));
+  write("outside.bag", withNumber(bytes, first + 8, 1u << 30));
+  const std::size_t message = bytes.find(op + '\2'), length = bytes.find("time=", message) + 13;
+  write("long.bag", withNumber(bytes, length, 3'875'537'342u));
+  const std::map<std::string, std::string> reasons = {
+      {"early.bag", "is cut short or damaged: the index has messages at times that their chunk"},
+      {"outside.bag", "is an index of what its chunk does not hold"},
+      {"long.bag", "a message on joint_states is longer than its chunk"}};
+  for (const auto& [bag, reason] : reasons) {
+    const auto start = std::chrono::steady_clock::now();
+    expectRefused(check(bag, "no"), reason);
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 10.0) << bag;
+  }
+  ASSERT_EQ(::mkfifo(path("pipe.bag").c_str(), 0600), 0);
+  expectRefused(check("pipe.bag", "no"), "pipe.bag: is not a regular file");
+}
+
+TEST_F(CheckBag, PosesThatAreMinutesApartNameMaxCycleAndTheServiceForThem) {
+  rosbag::Bag bag(path("poses.bag").string(), rosbag::bagmode::Write);
+  const Pose pose = downwards();
+  for (int i = 0; i < 3; ++i) {
+    sensor_msgs::JointState state;  // its stamp is 0
+    state.name = {"yaw", "shoulder", "elbow", "wrist", "roll"};
+    state.position = {0.1 * i, pose.shoulder, pose.elbow, pose.wrist, 0.0};
+    bag.write("joint_states", ros::Time(kBegin + 120.0 * i), state);
+  }
+  bag.close();
+  const ToolRun result = run(check("poses.bag", "made"));
+  EXPECT_NE(result.exit_code, kDone);
+  EXPECT_NE(result.error.find("up to 120 s apart, and what is longer than max_cycle (1 s) is no motion"),
+            std::string::npos)
+      << result.error;
+  EXPECT_NE(result.error.find("query_motions"), std::string::npos) << result.error;
+}
 
 TEST_F(CheckBag, BadBagsAreRefused) {
   const std::string bytes = readText(path("arm.bag"));

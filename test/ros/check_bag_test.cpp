@@ -372,6 +372,11 @@ TEST_F(CheckBag, StartAndDurationChooseAPart) {
   EXPECT_NEAR(std::stod(Row(cycles.front())["t0"]), kBegin + 0.1, 2.0 * kSamplePeriod);
   EXPECT_NEAR(std::stod(Row(cycles.back())["t1"]), kBegin + 0.5, 2.0 * kSamplePeriod);
   EXPECT_TRUE(table("part/contacts.csv").empty());
+  // All times count from the bag's beginning, as --start does.
+  const std::string summary = readText(path("part/summary.txt"));
+  const std::size_t time = summary.find("time             from ");
+  ASSERT_NE(time, std::string::npos) << summary;
+  EXPECT_NEAR(std::stod(summary.substr(time + 22)), 0.1, 2.0 * kSamplePeriod) << summary;
 }
 
 TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {

@@ -309,8 +309,8 @@ TEST_F(TfTrackerTest, AGapIsMissingAndALongPauseToo) {
   send(stampedTransform("world", "hand", 13.0, 1.0));
   send(stampedTransform("world", "foot", 13.0, 0.0));
   ASSERT_EQ(next(13.0), Step::kCycle);
-  EXPECT_EQ(cycle_.motion.missing[0], "no cycle for 3.00 s");
-  EXPECT_EQ(cycle_.motion.missing[1], "no cycle for 3.00 s");
+  EXPECT_EQ(cycle_.motion.missing[0], "no cycle for 3.00 s, longer than max_cycle (1.00 s)");
+  EXPECT_EQ(cycle_.motion.missing[1], "no cycle for 3.00 s, longer than max_cycle (1.00 s)");
   EXPECT_EQ(cycle_.motion.missing[2], "");  // does not move
   send(stampedTransform("world", "hand", 13.03, 1.0));
   send(stampedTransform("world", "foot", 13.03, 0.0));

@@ -36,12 +36,17 @@ TriangleMesh loadMesh(const std::string& path);
 /// but not a manifold: where two voxels touch only at an edge, four faces meet there, and where they touch at a corner
 /// a vertex belongs to both. Distances and signs are not affected; code that needs a manifold must treat such meshes
 /// separately (GeometryDescription::watertight_voxels).
+/// @param bytes  the whole file's content.
+/// @param name   the file's name, which appears in errors.
 /// @param resolution  set to the voxels' size [m].
 /// @throws std::runtime_error naming the file and the reason: unreadable, truncated, damaged, nothing occupied, a tree
 /// of another type than OcTree and ColorOcTree, a build without OctoMap, more faces than accepted for the file's size
 /// (2 million plus 8,000 per byte, at most 25 million: 19 bytes can encode 10 billion); Cancelled. The file is read by
 /// a process of its own, like meshes (parseMesh()), with 512 MiB of memory plus 2,000 times the file's size, at most 6
 /// GiB.
+TriangleMesh parseOctomapSurface(const std::string& bytes, const std::string& name, double& resolution);
+
+/// The same from a file on disk, of up to 1 GiB: no device, pipe or socket.
 TriangleMesh loadOctomapSurface(const std::string& path, double& resolution);
 
 }  // namespace sdf_ccd

@@ -49,8 +49,8 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   const auto runUntil = [&](const ros::Time& time) {
     for (; now < time; now += period) {
       // No cycle can begin before the next transforms, which may be years later: robots' clocks are set while they
-      // record.
-      if (stepAt(now) == TfTracker::Step::kStalled && time - now > period) now = time - period;
+      // record. The last period before them is stepped through, so that they are not ahead of the clock.
+      if (stepAt(now) == TfTracker::Step::kStalled && time - now > period * 2.0) now = time - period * 2.0;
     }
   };
   motion.play([&](const RecordedTransforms& transforms) {

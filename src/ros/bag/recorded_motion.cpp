@@ -51,6 +51,7 @@ void RecordedMotion::findTopics() {
     throw std::runtime_error(file_ + ": lasts " + numberText(length) + " s, nothing is left after the start at " +
                              numberText(options_.start) + " s");
   }
+  origin_ = first;
   begin_ = first + ros::Duration(options_.start);
   end_ = options_.duration < (last - begin_).toSec() ? begin_ + ros::Duration(options_.duration) : last;
 

@@ -38,6 +38,7 @@ class RecordedMotion {
   /// nothing about the robot's links or the fixed frame.
   RecordedMotion(const std::string& file, const DescribedScene& described, const RecordedMotionOptions& options);
 
+  ros::Time origin() const { return origin_; }  ///< the bag's first message; times in reports count from here
   ros::Time begin() const { return begin_; }
   ros::Time end() const { return end_; }
 
@@ -67,7 +68,7 @@ class RecordedMotion {
   mutable JointWatch joint_watch_;         // of the messages played
   mutable std::set<std::string> unnamed_;  // joints that move independently and are named in no message played
   rosbag::Bag bag_;
-  ros::Time begin_, end_;
+  ros::Time origin_, begin_, end_;
   std::vector<std::string> tf_topics_;           // /tf and /tf_static, if present
   std::vector<std::string> joint_state_topics_;  // all of the type; later the one that is used, or none
   std::set<std::string> tf_frames_;              // child frames in tf, as far as the bag was read

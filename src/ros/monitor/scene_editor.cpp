@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -12,7 +11,6 @@
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
 #include "sdf_ccd/common/cancel.h"
-#include "storage/temporary_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -135,19 +133,9 @@ std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene
 }
 
 void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
-  namespace fs = std::filesystem;
-  const std::string path = sources.files.path(file);
-  if (fs::path(path).extension() != ".scene")
+  if (std::filesystem::path(sources.files.path(file)).extension() != ".scene")
     throw std::invalid_argument("save_file " + file + " does not end in .scene");
-  const std::string text = scene.text(sources, sources.warnings);
-  // Anyone who can write in the folder could have placed a link under any name that is known beforehand.
-  TemporaryFile made(path);
-  {
-    std::ofstream stream(made.path(), std::ios::binary | std::ios::trunc);
-    stream << text;
-    if (!stream.flush()) throw std::runtime_error(path + ": cannot be written");
-  }
-  made.place();
+  sources.files.write(file, scene.text(sources, sources.warnings));
 }
 
 void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response) {

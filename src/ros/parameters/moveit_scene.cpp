@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "common/read_number.h"
 #include "common/shown_text.h"
 
 namespace sdf_ccd {
@@ -17,7 +18,7 @@ constexpr int kMaxShapes = 10'000, kMaxCorners = 5'000'000;
 /// Reads a text word by word and counts its lines.
 class Words {
  public:
-  explicit Words(const std::string& text) : stream_(text) { stream_.imbue(std::locale::classic()); }
+  explicit Words(const std::string& text) : stream_(text) {}
 
   [[noreturn]] void fail(const std::string& reason) const {
     throw std::runtime_error("line " + std::to_string(line_) + ": " + reason);
@@ -68,11 +69,9 @@ class Words {
 
   double number() {
     const std::string text = word();
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    double value = 0.0;
-    if (!(stream >> value) || !stream.eof() || !std::isfinite(value)) fail("expected a number, not " + shownText(text));
-    return value;
+    const std::optional<double> value = wholeNumber(text);
+    if (!value || !std::isfinite(*value)) fail("expected a number, not " + shownText(text));
+    return *value;
   }
   double positive() {
     const double value = number();

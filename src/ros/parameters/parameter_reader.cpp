@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <locale>
+#include <optional>
 #include <sstream>
 
 #include "common/number_text.h"
+#include "common/read_number.h"
 #include "common/shown_text.h"
 
 namespace sdf_ccd {
@@ -23,6 +25,7 @@ std::string written(XmlRpcValue value) {
   };
   std::vector<XmlRpcValue> items;
   std::ostringstream plain;
+  plain.imbue(std::locale::classic());
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
       return static_cast<bool>(value) ? "true" : "false";
@@ -49,10 +52,9 @@ bool toNumber(const XmlRpcValue& value, double& number) {
   } else if (value.getType() == XmlRpcValue::TypeDouble) {
     number = static_cast<double>(copy);
   } else if (value.getType() == XmlRpcValue::TypeString) {
-    const std::string text = copy;
-    std::istringstream stream(text);
-    stream.imbue(std::locale::classic());
-    if (!(stream >> number) || !stream.eof()) return false;
+    const std::optional<double> read = wholeNumber(static_cast<std::string&>(copy));
+    if (!read) return false;
+    number = *read;
   } else {
     return false;
   }

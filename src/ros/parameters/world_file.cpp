@@ -12,15 +12,19 @@
 namespace sdf_ccd {
 
 std::vector<WorldObject> loadWorldFile(const std::string& file) {
+  return parseWorldFile(readNamedFile(file, kMaxYamlBytes), file);
+}
+
+std::vector<WorldObject> parseWorldFile(const std::string& text, const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending == ".yaml" || ending == ".yml") {
-    ParameterReader reader(loadYamlParameters(file), file);
+    ParameterReader reader(parseYamlParameters(text, file), file);
     if (!reader.has("world")) throw std::runtime_error(file + ": there is no `world` in it");
     return readWorld(reader);
   }
   try {
     if (ending != ".scene") throw std::runtime_error("a world's file must end in .yaml, .yml or .scene");
-    return parseMoveitScene(readRegularFile(file, kMaxYamlBytes));
+    return parseMoveitScene(text);
   } catch (const std::exception& error) {
     throw std::runtime_error(file + ": " + error.what());
   }

@@ -12,4 +12,7 @@ namespace sdf_ccd {
 /// @throws std::runtime_error with the file and the reason, and the line where known; also for other extensions.
 std::vector<WorldObject> loadWorldFile(const std::string& file);
 
+/// The same from a file's content. @param file  its name, whose ending gives the format.
+std::vector<WorldObject> parseWorldFile(const std::string& text, const std::string& file);
+
 }  // namespace sdf_ccd

@@ -3,10 +3,12 @@
 #include <cerrno>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <regex>
 #include <set>
 #include <stdexcept>
 
+#include "common/read_number.h"
 #include "common/text_limits.h"
 #include "storage/regular_file.h"
 #include "yaml/load_yaml.h"
@@ -32,8 +34,9 @@ bool toInteger(const std::string& text, int& number) {
 bool toReal(const std::string& text, double& number) {
   static const std::regex kReal("[-+]?([0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
   if (!std::regex_match(text, kReal)) return false;
-  number = std::strtod(text.c_str(), nullptr);
-  return true;
+  const std::optional<double> read = wholeNumber(text);
+  number = read.value_or(0.0);
+  return read.has_value();
 }
 
 XmlRpcValue toScalar(const YAML::Node& node) {
@@ -111,8 +114,12 @@ class ValueReader {
 }  // namespace
 
 XmlRpcValue loadYamlParameters(const std::string& file) {
+  return parseYamlParameters(readNamedFile(file, kMaxYamlBytes), file);
+}
+
+XmlRpcValue parseYamlParameters(const std::string& text, const std::string& file) {
   try {
-    const YAML::Node document = loadYaml(readRegularFile(file, kMaxYamlBytes));
+    const YAML::Node document = loadYaml(text);
     if (document.IsNull()) return {};
     if (!document.IsMap()) refuse(document.Mark(), "expected parameters, as in config/monitor.yaml");
     return ValueReader().value(document);

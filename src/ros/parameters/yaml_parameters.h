@@ -15,4 +15,7 @@ namespace sdf_ccd {
 /// @throws std::runtime_error with file, and line where known, if it cannot be read, is no YAML or a value is empty.
 XmlRpc::XmlRpcValue loadYamlParameters(const std::string& file);
 
+/// The same from the file's content. @param file  its name, for errors.
+XmlRpc::XmlRpcValue parseYamlParameters(const std::string& text, const std::string& file);
+
 }  // namespace sdf_ccd

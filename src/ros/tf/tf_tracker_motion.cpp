@@ -31,6 +31,10 @@ Needed secondsOf(const TimePart& part, const ros::Time& origin) {
   return {(part.from - origin).toSec(), (part.until - origin).toSec()};
 }
 
+std::string longerThan(double max_cycle) {
+  return ", longer than max_cycle (" + secondsText(max_cycle, 2) + ")";
+}
+
 }  // namespace
 
 /// Samples the motion where pairs need it, in parts that may lie apart: if one frame lags behind, the other bodies are
@@ -132,12 +136,13 @@ void TfTracker::copyMotion(const TrackedCycle& cycle, std::vector<std::string>& 
     } else if (is_needed && needed.from < changed_[body]) {
       missing[body] = span.change + " since then";
     } else if (is_needed && !span.is_static && length > options_.max_cycle) {
-      missing[body] = "no cycle for " + secondsText(length, 2);
+      missing[body] = "no cycle for " + secondsText(length, 2) + longerThan(options_.max_cycle);
     } else if (is_needed && span.first > needed.from) {
       missing[body] = frame + " is known only since " + secondsText(secondsBetween(needed.from, span.first), 2) +
                       " after the cycle's start";
     } else if (is_needed && window_.longestGap(body) > options_.max_cycle) {
-      missing[body] = "no transforms of " + frame + " for " + secondsText(window_.longestGap(body), 2);
+      missing[body] = "no transforms of " + frame + " for " + secondsText(window_.longestGap(body), 2) +
+                      longerThan(options_.max_cycle);
     } else {
       missing[body] = window_.problem(body);
     }

@@ -5,6 +5,7 @@
 
 #include "common/refuse.h"
 #include "common/shown_text.h"
+#include "common/text_limits.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/changing_scene_start_up.h"
@@ -133,9 +134,9 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
     if (!object.shapes.empty())
       refuse("an object with octomap_file cannot have other shapes: add those as another object");
     OctomapObject octomap;
-    octomap.file = sources.files.path(change.octomap_file);
+    octomap.file = change.octomap_file;
     octomap.X_frame_B = X_frame_B;
-    body = toBody(change.object, octomap, frame);
+    body = toBody(change.object, octomap, frame, [&](const std::string& file) { return sources.files.read(file); });
   } else {
     if (object.shapes.empty()) refuse("object " + change.object + " has no shape");
     const ResourceLoader loader = [&](const std::string& uri) { return sources.files.resource(uri); };
@@ -246,7 +247,8 @@ void ChangingScene::addRule(const SceneChange& change, ChangeSources& sources) {
 
 void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {
   const ResourceLoader loader = [&](const std::string& uri) { return sources.files.resource(uri); };
-  for (const WorldObject& object : loadWorldFile(sources.files.path(change.file))) {
+  const Resource file = sources.files.read(change.file, kMaxYamlBytes);
+  for (const WorldObject& object : parseWorldFile(file.bytes, file.name)) {
     checkCancelled();
     requireName(object.name, "an object's name", sources.limits);
     requireUsableName(object.name);

@@ -8,6 +8,7 @@
 #include "ros/parameters/world_file.h"
 #include "ros/world/fetch_http.h"
 #include "ros/world/world_bodies.h"
+#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -86,7 +87,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
   }
   if (!parameters.octomap.file.empty()) {
-    described.scene.bodies.push_back(toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame)));
+    described.scene.bodies.push_back(
+        toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame), [](const std::string& file) {
+          return Resource{readNamedFile(file), file, ""};
+        }));
   }
   for (const std::string& root : parameters.resource_roots) {
     std::error_code error;

@@ -1,10 +1,16 @@
 #include "ros/world/request_files.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "common/shown_text.h"
+#include "storage/linkless_path.h"
+#include "storage/temporary_file.h"
 
 namespace sdf_ccd {
 namespace {
@@ -44,12 +50,33 @@ std::string RequestFiles::path(const std::string& file) const {
   return canonical.string();
 }
 
+Resource RequestFiles::read(const std::string& file, std::size_t max_bytes) const {
+  const std::string found = path(file);
+  try {
+    return {readWithoutLinks(found, max_bytes), found, ""};
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(shownText(found) + ": " + error.what());
+  }
+}
+
 Resource RequestFiles::resource(const std::string& uri) const {
   const bool is_elsewhere = uri.find("://") != std::string::npos && !startsWith(uri, kFile);
   if (is_elsewhere) return loader_(uri);
   Resource found = loader_(path(uri));
-  path(found.name);  // a name with escaped characters, or in other case, may have been found outside
+  // What the loader has read may be outside: by another spelling of the name, or behind a link that came meanwhile.
+  found.bytes = read(found.name).bytes;
   return found;
+}
+
+void RequestFiles::write(const std::string& file, const std::string& text) const {
+  const fs::path target = path(file);
+  try {
+    TemporaryFile made(openWithoutLinks(target.parent_path(), O_PATH | O_DIRECTORY), target.filename().string());
+    if (!writeAll(made.descriptor(), text.data(), text.size())) throw std::system_error(errno, std::generic_category());
+    made.place();
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(shownText(target.string()) + ": cannot be written: " + error.code().message());
+  }
 }
 
 }  // namespace sdf_ccd

@@ -62,13 +62,15 @@ BodyDescription toBody(const WorldObject& object, const std::string& frame, cons
   return body;
 }
 
-BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame) {
+BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame,
+                       const ResourceLoader& loader) {
   BodyDescription body = emptyBody(name, frame, octomap.X_frame_B);
   try {
     double resolution = 0.0;
     GeometryDescription geometry;
-    geometry.shape = std::make_shared<const TriangleMesh>(loadOctomapSurface(octomap.file, resolution));
-    geometry.source = octomap.file;
+    const Resource file = loader(octomap.file);
+    geometry.shape = std::make_shared<const TriangleMesh>(parseOctomapSurface(file.bytes, file.name, resolution));
+    geometry.source = file.name;
     geometry.watertight_voxels = true;
     // The field's error, √3/2 of a cell, is then less than the depth at the centre of a single voxel: no voxel is
     // lost.

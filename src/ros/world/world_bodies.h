@@ -17,7 +17,8 @@ BodyDescription toBody(const WorldObject& object, const std::string& frame, cons
                        std::vector<std::string>& warnings);
 
 /// The same for an OctoMap file, with the given name.
-BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame);
+BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame,
+                       const ResourceLoader& loader);
 
 /// Placeholder for a live map that has not been received yet: the robot is NOT_CHECKED against it, for this reason, and
 /// its bodies are prepared for it.

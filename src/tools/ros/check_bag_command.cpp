@@ -53,11 +53,13 @@ struct CheckFiles {
         bag(bag_path.part(), bag_path.path()),
         report(directory) {}
 
-  /// @param title  title of the plot.
-  void commit(const std::string& title) {
+  /// @param origin  from which the plot's times count.
+  /// @param title   title of the plot.
+  void commit(const ros::Time& origin, const std::string& title) {
     bag.close();
     for (OutputFile* file : {&plan, &summary}) file->close();
-    if (!report.commit(title)) std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing, or failed" << std::endl;
+    if (!report.commit(origin, title))
+      std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing, or failed" << std::endl;
     bag_path.commit();
     for (OutputFile* file : {&plan, &summary}) file->commit();
   }
@@ -128,7 +130,21 @@ Checked check(const RecordedMotion& motion, const MonitorParameters& parameters,
   return {secondsSince(start), recorder.coverage()};
 }
 
-void requireChecked(const CycleStatistics& statistics, const Scene& scene, const std::string& bag) {
+/// What to do about poses that are too far apart in time to be a motion; empty if none are.
+std::string gapHint(const CycleStatistics& statistics, double max_cycle) {
+  const double gap = statistics.longestGap();
+  if (gap <= max_cycle) return {};
+  return fmt::format(
+      "the bag's poses are up to {:.3g} s apart, and what is longer than max_cycle ({:.3g} s) is no motion: set "
+      "max_cycle "
+      "in --config if the robot went straight from one to the next, or ask the service query_motions about such "
+      "motions",
+      gap, max_cycle);
+}
+
+void requireChecked(const CycleStatistics& statistics, const Scene& scene, const std::string& bag, double max_cycle) {
+  const std::string gap_hint = gapHint(statistics, max_cycle);
+  const std::string hint = gap_hint.empty() ? "" : "; " + gap_hint;
   const std::vector<CycleRecord>& cycles = statistics.cycles();
   const std::string why = statistics.whyNotChecked();
   require(!cycles.empty(),
@@ -136,7 +152,7 @@ void requireChecked(const CycleStatistics& statistics, const Scene& scene, const
   const bool is_checked =
       std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& cycle) { return cycle.hasBound(); });
   if (!is_checked && why.empty()) std::cerr << planTable(scene) << std::flush;  // an error is one line
-  require(is_checked, bag + ": nothing could be checked, as " + (why.empty() ? "all pairs are left out" : why));
+  require(is_checked, bag + ": nothing could be checked, as " + (why.empty() ? "all pairs are left out" : why) + hint);
 }
 
 /// "1 pair was", "2 pairs were".
@@ -147,7 +163,9 @@ std::string were(std::size_t pairs) {
 /// What was not checked, a sentence each; empty if everything was checked, up to the time that late frames may take.
 /// @param begin  start time of the bag.
 std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const Scene& scene,
-                                       const PairCoverage& coverage, const ros::Time& begin, double max_latency) {
+                                       const PairCoverage& coverage, const ros::Time& begin,
+                                       const TfTrackerOptions& tf) {
+  const double max_latency = tf.max_latency;
   std::vector<std::string> missing;
   const std::string why = statistics.whyNotChecked();
   if (!statistics.hasCheckedCycle()) missing.push_back("no cycle was checked as a whole, as " + why);
@@ -168,6 +186,7 @@ std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const 
                     were(doubtful.size()), pairName(scene, doubtful[0]), doubtful[0].seconds, coverage.total()));
   }
   for (const std::string& gap : statistics.gaps(begin)) missing.push_back("nothing was checked " + gap);
+  if (const std::string hint = gapHint(statistics, tf.max_cycle); !hint.empty()) missing.push_back(hint);
   return missing;
 }
 
@@ -213,10 +232,10 @@ void run(const Arguments& arguments) {
     warnings.push_back(warning);
   }
   const CycleStatistics& statistics = files.report.statistics();
-  requireChecked(statistics, *scene, arguments.bag);
+  requireChecked(statistics, *scene, arguments.bag, parameters.tf.max_cycle);
 
   const std::vector<std::string> missing =
-      whatIsMissing(statistics, *scene, checked.coverage, motion.begin(), parameters.tf.max_latency);
+      whatIsMissing(statistics, *scene, checked.coverage, motion.origin(), parameters.tf);
   for (const std::string& what : missing) std::cerr << "sdf_ccd: " << what << std::endl;
   const bool is_complete = areAllMade(*scene) && missing.empty();
   const double length = (motion.end() - motion.begin()).toSec();
@@ -227,12 +246,12 @@ void run(const Arguments& arguments) {
       "speed            {:.1f} s in {}: {:.3g} times real time\n"
       "{}",
       arguments.bag, length, timeText(motion.begin()), motion.source(), described.robot->urdf().getName(),
-      scene->bodies.size(), scene->pairs.size(), described.fixed_frame, statistics.summary(motion.begin()), length,
+      scene->bodies.size(), scene->pairs.size(), described.fixed_frame, statistics.summary(motion.origin()), length,
       durationText(checked.seconds), length / checked.seconds, lasting);
   std::cout << text << std::flush;
   files.summary.stream() << expected << text;
   files.plan.stream() << planText(*scene, warnings);
-  files.commit("Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
+  files.commit(motion.origin(), "Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
   if (!is_complete) throw PartlyDone();
 }
 
@@ -262,7 +281,8 @@ void addCheckBagCommand(CLI::App& app) {
       "distances and velocity_scale if their parameters are set; "
       "roslaunch sdf_ccd bag.launch "
       "check:=false shows it), cycles.csv (a row per cycle), contacts.csv (a row per pair and contact, over however "
-      "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, lengths metres. Exit "
+      "many cycles it lasts), error_time.svg (gnuplot), summary.txt, plan.txt. Times are seconds, those of summary.txt "
+      "and error_time.svg since the bag's first message; lengths metres. Exit "
       "code 1: some pairs were not checked at all, or not for more than max_latency in total, no cycle was checked as "
       "a "
       "whole, or a part of the bag was not, as its transforms end before it or are refused; 2: nothing was checked. "

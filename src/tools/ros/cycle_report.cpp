@@ -23,12 +23,12 @@ void CycleReport::add(const ContactArray& message) {
   cycles_file_.stream() << toRow(record);
 }
 
-bool CycleReport::commit(const std::string& title) {
+bool CycleReport::commit(const ros::Time& origin, const std::string& title) {
   std::string subtitle = std::to_string(statistics_.cycles().size()) + " cycles";
   for (const std::string& line : statistics_.runTimesAndBounds()) {
     subtitle += ", " + std::regex_replace(line, std::regex(" +"), " ");
   }
-  const bool is_plotted = plotErrorTime(statistics_.cycles(), {title, subtitle}, plot_file_.part());
+  const bool is_plotted = plotErrorTime(statistics_.cycles(), origin, {title, subtitle}, plot_file_.part());
   for (const Contact& contact : statistics_.contacts()) contacts_file_.stream() << toRow(contact);
   for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->close();
   for (OutputFile* file : {&cycles_file_, &contacts_file_}) file->commit();

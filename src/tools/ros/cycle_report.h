@@ -17,9 +17,10 @@ class CycleReport {
 
   const CycleStatistics& statistics() const { return statistics_; }
 
-  /// @param title  title of the plot.
+  /// @param origin  from which the plot's times count.
+  /// @param title   title of the plot.
   /// @return false if there is no plot: no gnuplot, or no cycle that has a bound.
-  bool commit(const std::string& title);
+  bool commit(const ros::Time& origin, const std::string& title);
 
  private:
   OutputFile cycles_file_, contacts_file_;

@@ -131,6 +131,13 @@ std::vector<std::string> CycleStatistics::gaps(const ros::Time& begin) const {
   return lines;
 }
 
+double CycleStatistics::longestGap() const {
+  double longest = 0.0;
+  for (const auto* records : {&cycles_, &gaps_})
+    for (const CycleRecord& record : *records) longest = std::max(longest, (record.end - record.start).toSec());
+  return longest;
+}
+
 std::string CycleStatistics::gapLines(const ros::Time& begin) const {
   if (gaps_.empty()) return "";
   double length = 0.0;

@@ -20,6 +20,8 @@ class CycleStatistics {
 
   /// Times over which no cycle was run, as "from 1.4 s to 4 s, as no new transforms", relative to `begin`.
   std::vector<std::string> gaps(const ros::Time& begin) const;
+  /// The longest time between poses, within a cycle or while none was run [s].
+  double longestGap() const;
   std::vector<Contact> contacts() const { return contacts_.contacts(); }
 
   /// Whether any cycle as a whole has a verdict other than NOT_CHECKED.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <locale>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -106,13 +107,14 @@ void writePlot(const std::string& name, const Points& points, const std::string&
   script << "\n";
 }
 
-std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg) {
+std::string scriptOf(const std::vector<CycleRecord>& cycles, const ros::Time& origin, const PlotTitle& title,
+                     const std::string& svg) {
   // Points are thinned on the scale on which they are drawn, so run times are logarithms here.
   Points error_time, error, run_time;
-  double first = 0.0, last = 0.0;
+  double first = (cycles.front().start - origin).toSec(), last = first;
   for (const CycleRecord& cycle : cycles) {
     const auto v = std::size_t(std::find(kVerdicts.begin(), kVerdicts.end(), cycle.verdict) - kVerdicts.begin());
-    const double time = (cycle.end - cycles.front().start).toSec();  // negative after time has jumped back
+    const double time = (cycle.end - origin).toSec();  // before the first after time has jumped back
     const double took = std::log10(std::max(1e3 * cycle.run_time, 1e-6));
     first = std::min(first, time);
     last = std::max(last, time);
@@ -122,6 +124,7 @@ std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& ti
     error_time[v].push_back({took, 1e3 * cycle.error_bound});
   }
   std::ostringstream script;
+  script.imbue(std::locale::classic());
   script << "set terminal svg size 1100,560 font 'sans,13' background 'white'\nset output " << precision::quoted(svg)
          << "\n";
   writeData("error_time", error_time, script);
@@ -142,11 +145,12 @@ std::string scriptOf(const std::vector<CycleRecord>& cycles, const PlotTitle& ti
 
 }  // namespace
 
-bool plotErrorTime(const std::vector<CycleRecord>& cycles, const PlotTitle& title, const std::string& svg) {
+bool plotErrorTime(const std::vector<CycleRecord>& cycles, const ros::Time& origin, const PlotTitle& title,
+                   const std::string& svg) {
   const bool has_bound = std::any_of(cycles.begin(), cycles.end(), [](const CycleRecord& r) { return r.hasBound(); });
   if (!has_bound || !precision::haveGnuplot()) return false;
   try {
-    precision::runGnuplot(scriptOf(cycles, title, svg));
+    precision::runGnuplot(scriptOf(cycles, origin, title, svg));
     return true;
   } catch (const std::runtime_error&) {
     return false;

@@ -57,8 +57,8 @@ void run(const Arguments& arguments) {
     const ros::Time begin = rosbag::View(bag).getBeginTime();  // as for check-bag, and other tools for bags
     std::cout << "bag              " << arguments.bag << ": from " << timeText(begin) << "\n"
               << report.statistics().summary(begin) << std::flush;
-    if (report.commit("Error and run time of " + topic + " in " +
-                      std::filesystem::path(arguments.bag).filename().string())) {
+    if (report.commit(begin, "Error and run time of " + topic + " in " +
+                                 std::filesystem::path(arguments.bag).filename().string())) {
       return;
     }
     std::cerr << "sdf_ccd: no error_time.svg: gnuplot is missing or failed, or no cycle has a bound" << std::endl;
