@@ -5,6 +5,7 @@
 #include "caps_file.h"
 #include "field/adaptive/adaptive_file.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/lost_surface.h"
 #include "field/uniform/sparse_grid.h"
 #include "grid_record.h"
 #include "storage/checked_file.h"
@@ -13,7 +14,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr char kKind[] = "field";
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 
 struct UniformRecord {
   GridRecord grid;
@@ -24,7 +25,12 @@ static_assert(sizeof(UniformRecord) == 128, "the file's layout must not depend o
 }  // namespace
 
 void saveField(const DistanceField& field, const std::string& path, const std::string& key) {
-  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field, path, key);
+  saveField(field, path, key, std::nullopt);
+}
+
+void saveField(const DistanceField& field, const std::string& path, const std::string& key,
+               const std::optional<LostSurface>& lost) {
+  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field, path, key, lost);
   const SparseGrid* grid = field.grid();
   if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
   const GridShape& shape = grid->shape();
@@ -33,6 +39,7 @@ void saveField(const DistanceField& field, const std::string& path, const std::s
   std::vector<FileSection> sections = {
       {&record, sizeof record}, sectionOf(grid->corners()), sectionOf(grid->words()), sectionOf(grid->samples())};
   addCaps(field.openings(), sections);
+  addLost(lost, sections);
   writeCheckedFile(path, {kKind, kVersion, key}, sections);
 }
 
@@ -61,6 +68,11 @@ DistanceField loadField(const std::string& path, const std::string& key) {
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }
+}
+
+std::optional<LostSurface> loadLostSurface(const std::string& path) {
+  if (isCheckedFile(path, kAdaptiveFileKind)) return loadLostOfAdaptive(path);
+  return lostIn(*CheckedFile::open(path, {kKind, kVersion}), 7, path);
 }
 
 }  // namespace sdf_ccd

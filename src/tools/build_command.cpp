@@ -50,6 +50,7 @@ void buildFile(const Arguments& arguments) {
   // Half a voxel: the field's error, √3/2 of a cell, is then less than the depth of a voxel's centre, so that no voxel
   // is lost.
   build.field = is_mesh ? arguments.resolution.fieldOptions() : arguments.resolution.fieldOptions(build.voxel_size / 2);
+  if (is_mesh) build.thin_walls = arguments.resolution.thinWalls();
   build.spacing = arguments.spacing;
   std::cout << build.name << ": " << file << "\n";
   arguments.time.limit([&] { buildMesh(std::move(build), arguments.out); });

@@ -13,12 +13,6 @@
 namespace sdf_ccd::tools {
 namespace {
 
-double errorOf(const FieldOptions& options, const TriangleMesh& mesh) {
-  if (options.max_error) return *options.max_error;
-  if (options.cell_size) return kHalfSqrt3 * *options.cell_size;
-  return kHalfSqrt3 * boundingBox(mesh).sizes().maxCoeff() / *options.cells;
-}
-
 FieldOptions coarser(FieldOptions options, int times) {
   if (options.max_error) *options.max_error *= times;
   if (options.cell_size) *options.cell_size *= times;
@@ -43,6 +37,12 @@ BodyOptions limits(const FieldOptions& field) {
 }
 
 }  // namespace
+
+double errorOf(const FieldOptions& options, const TriangleMesh& mesh) {
+  if (options.max_error) return *options.max_error;
+  if (options.cell_size) return kHalfSqrt3 * *options.cell_size;
+  return kHalfSqrt3 * boundingBox(mesh).sizes().maxCoeff() / *options.cells;
+}
 
 void announceCost(const std::string& name, const TriangleMesh& mesh, const SolidSource& source,
                   const FieldOptions& field, const ShellOf& shell) {

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "common/number_text.h"
 #include "geometry/openings/openings.h"
+#include "lost_walls.h"
 #include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
@@ -30,9 +31,16 @@ struct Arguments {
   TimeOption time;
 };
 
-void printField(const DistanceField& field) {
+std::string wallsText(const DistanceField& field, const std::optional<LostSurface>& lost) {
+  if (!lost) return "not examined";
+  if (isNoticed(*lost)) return describeLost(*lost, field);
+  return "all kept (" + shortText(100.0 * lost->share) + " % of the surface lost)";
+}
+
+void printField(const DistanceField& field, const std::optional<LostSurface>& lost) {
   std::cout << "field: " << describe(field) << "\nsurface within " << describe(field.surfaceBox())
-            << "\nsamples within " << describe(field.box()) << "\nopenings: " << describeOpenings(field) << std::endl;
+            << "\nsamples within " << describe(field.box()) << "\nopenings: " << describeOpenings(field)
+            << "\nthin walls: " << wallsText(field, lost) << std::endl;
 }
 
 void printShell(const PointShell& shell) {
@@ -73,7 +81,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
   if (isFieldFile(file)) {
     arguments.resolution.requireNone(file + " is a field already");
     const DistanceField field = loadField(file);
-    printField(field);
+    printField(field, loadLostSurface(file));
     return field;
   }
   if (isCheckedFile(file, "shell")) {
@@ -90,7 +98,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
     if (!wants_field) return std::nullopt;
     MadeSolid made;
     made.may_be_voxels = true;
-    return buildAffordable(file, mesh, made, arguments.resolution.fieldOptions(voxel_size / 2.0));
+    return buildAffordable(file, mesh, made, arguments.resolution.fieldOptions(voxel_size / 2.0), ThinWalls::kReport);
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);
@@ -98,7 +106,8 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
   MadeSolid made;
   printSolid(SolidSource(oriented.mesh, made).solid().report(), "solid: ");
   if (!wants_field) return std::nullopt;
-  return buildAffordable(file, oriented.mesh, made, arguments.resolution.fieldOptions());
+  return buildAffordable(file, oriented.mesh, made, arguments.resolution.fieldOptions(),
+                         arguments.resolution.thinWalls());
 }
 
 void run(const Arguments& arguments) {

@@ -1,5 +1,6 @@
 #include "mesh_build.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <utility>
@@ -54,13 +55,17 @@ void buildMesh(MeshBuild build, const std::string& directory) {
   announceCost(build.name, build.mesh, source, build.field, made.may_be_voxels ? ShellOf() : shell_of);
 
   const auto start = Clock::now();
-  const DistanceField field = buildWithBar("field of " + build.name, source, build.field);
+  const MeshField built = buildWithBar("field of " + build.name, source, build.field, build.thin_walls);
+  const DistanceField& field = built.field;
   if (!made.may_be_voxels) printSolid(source.solid().report(), "  solid  ");
-  saveField(field, out.file(build.name + ".field"));
+  saveField(field, out.file(build.name + ".field"), {}, built.lost);
+  warnOfLost(build.name, built);
   report("field", build.name + ".field", field, start);
   if (made.may_be_voxels) return;
   const auto field_end = Clock::now();
-  const PointShell shell = sampleSurface(source.solid(), shellOptions(build, field.errorBound()));
+  // Cells that are small only because of thin walls need no more points.
+  const double error = std::max(field.errorBound(), errorOf(build.field, build.mesh));
+  const PointShell shell = sampleSurface(source.solid(), shellOptions(build, error));
   saveShell(shell, out.file(build.name + ".shell"));
   report("shell", build.name + ".shell", shell, field_end);
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "mesh_field.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
@@ -12,9 +13,10 @@ namespace sdf_ccd::tools {
 struct MeshBuild {
   std::string name;  ///< of the files, without ending
   TriangleMesh mesh;
-  double voxel_size = 0.0;        ///< of the OctoMap whose surface the mesh is [m]; 0: a mesh of any quality
-  FieldOptions field;             ///< exactly one resolution
-  std::optional<double> spacing;  ///< of the shell's points [m]; if not set, two cells of a uniform grid
+  double voxel_size = 0.0;  ///< of the OctoMap whose surface the mesh is [m]; 0: a mesh of any quality
+  FieldOptions field;       ///< exactly one resolution
+  ThinWalls thin_walls = ThinWalls::kReport;  ///< kKeep only if field.cells is set
+  std::optional<double> spacing;              ///< of the shell's points [m]; if not set, two cells of a uniform grid
 };
 
 /// Writes NAME.field and, unless the mesh is a voxel surface, NAME.shell, and reports on both. Prints the expected cost

@@ -1,10 +1,17 @@
 #include "mesh_field.h"
 
+#include <algorithm>
 #include <iostream>
+#include <stdexcept>
+#include <utility>
 
 #include "build_cost.h"
+#include "common/time_limit.h"
 #include "field/source_field.h"
+#include "field/voxel_field.h"
+#include "lost_walls.h"
 #include "progress_bar.h"
+#include "sdf_ccd/body/prepare_body.h"
 
 namespace sdf_ccd::tools {
 
@@ -21,16 +28,47 @@ void printSolid(const SolidReport& report, const std::string& indent) {
   if (!doubt.empty()) std::cout << indent << "warning: " << doubt << "\n";
 }
 
-DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options) {
+MeshField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options,
+                       ThinWalls thin_walls) {
+  constexpr double kSecondsForWalls = 10.0;
+  constexpr int kMostCells = 16384;  // along the longest side, of any field
   ProgressBar bar(title);
-  return buildField(source, options, [&](double share) { bar(share); });
+  const auto build = [&](const FieldOptions& tried) {
+    DistanceField field = buildField(source, tried, [&](double share) { bar(share); });
+    const bool is_exact = source.voxels() && canBeLattice(*source.voxels(), tried);
+    std::optional<LostSurface> lost;
+    if (!is_exact) lost = findLostSurface(field, source.closed().solid());
+    return MeshField{std::move(field), lost};
+  };
+  MeshField made = build(options);
+  if (thin_walls == ThinWalls::kReport) return made;
+  FieldOptions finer = options;
+  finer.max_bytes = std::min(finer.max_bytes, kMaxFieldBytes);
+  try {
+    withinSeconds(kSecondsForWalls, "", [&] {
+      while (made.lost && isNoticed(*made.lost) && *finer.cells <= kMostCells / 2) {
+        *finer.cells *= 2;
+        made = build(finer);
+      }
+    });
+  } catch (const std::length_error&) {
+  } catch (const TookTooLong&) {
+  }
+  return made;
+}
+
+void warnOfLost(const std::string& source, const MeshField& made) {
+  const std::string text = made.lost ? describeLost(*made.lost, made.field) : "";
+  if (!text.empty()) std::cerr << "sdf_ccd: " << source << ": " << text << std::endl;
 }
 
 DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
-                              const FieldOptions& options) {
+                              const FieldOptions& options, ThinWalls thin_walls) {
   const SolidSource source(mesh, made);
   announceCost(file, mesh, source, options);
-  return buildWithBar("field", source, options);
+  MeshField built = buildWithBar("field", source, options, thin_walls);
+  warnOfLost(file, built);
+  return std::move(built.field);
 }
 
 }  // namespace sdf_ccd::tools

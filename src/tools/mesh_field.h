@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "field/lost_surface.h"
 #include "geometry/closed_solid.h"
 #include "geometry/solid_boundary.h"
 #include "sdf_ccd/field/build_field.h"
@@ -17,14 +19,30 @@ OrientedMesh orientWithWarning(const std::string& source, const TriangleMesh& me
 /// nothing if there is neither.
 void printSolid(const SolidReport& report, const std::string& indent);
 
+/// A field, and what it does not show of its mesh.
+struct MeshField {
+  DistanceField field;
+  std::optional<LostSurface> lost;  ///< none for voxels whose lattice the cells fit: these are not lost
+};
+
+/// What happens to walls that are too thin for a field.
+enum class ThinWalls {
+  kReport,  ///< they are lost
+  kKeep     ///< the cells are halved until none is, the field would exceed kMaxFieldBytes, or this takes over 10 s
+};
+
 /// Builds a field, with a progress bar of this title.
-DistanceField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options);
+MeshField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options,
+                       ThinWalls thin_walls);
+
+/// Prints to stderr what the field does not show, if that is noticed, prefixed by `source`.
+void warnOfLost(const std::string& source, const MeshField& made);
 
 /// Builds the field of a mesh from a file, with a progress bar. Prints the expected cost first if that is more than a
-/// second.
+/// second, and what the field does not show.
 /// @param made  of the mesh.
 /// @throws std::length_error beyond the monitor's limits, with a setting that would fit, before anything is built.
 DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
-                              const FieldOptions& options);
+                              const FieldOptions& options, ThinWalls thin_walls);
 
 }  // namespace sdf_ccd::tools

@@ -44,12 +44,16 @@ struct Arguments {
 };
 
 DistanceField fieldOf(const Arguments& arguments) {
-  if (!arguments.field.empty()) return loadField(arguments.field);
+  if (!arguments.field.empty()) {
+    DistanceField field = loadField(arguments.field);
+    warnOfLost(arguments.field, {field, loadLostSurface(arguments.field)});
+    return field;
+  }
   FieldOptions options = arguments.resolution.fieldOptions();
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
   const OrientedMesh oriented = orientWithWarning(arguments.mesh, loadMesh(arguments.mesh));
   MadeSolid made;
-  return buildAffordable(arguments.mesh, oriented.mesh, made, options);
+  return buildAffordable(arguments.mesh, oriented.mesh, made, options, arguments.resolution.thinWalls());
 }
 
 /// Calls `answer` with the index of each segment, on all cores.

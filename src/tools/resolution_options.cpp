@@ -14,8 +14,10 @@ bool hasResolution(const FieldOptions& options) {
 }
 
 void ResolutionOptions::addTo(CLI::App& command) {
-  resolution_option_ = command.add_option("--resolution", cells,
-                                          "Cells along the longest side of the surface's box (64 if none is given)");
+  resolution_option_ =
+      command.add_option("--resolution", cells,
+                         "Cells along the longest side of the surface's box; if none is given 64, and more where "
+                         "walls are too thin for that, up to a field of 256 MB");
   cell_option_ = command.add_option("--cell", cell_size, "Size of a cell [m]");
   max_error_option_ = command.add_option("--max-error", max_error, "Maximum error of distances near the surface [m]");
   resolution_option_->excludes(cell_option_)->excludes(max_error_option_);

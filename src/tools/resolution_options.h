@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "mesh_field.h"
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd::tools {
@@ -31,6 +32,9 @@ struct ResolutionOptions {
   /// The same; without a resolution, cells of `default_cell` [m], or 64 cells along the longest side.
   /// @throws std::invalid_argument if a value is invalid.
   FieldOptions fieldOptions(std::optional<double> default_cell = std::nullopt) const;
+
+  /// Without a resolution, thin walls are kept by smaller cells than the default.
+  ThinWalls thinWalls() const { return hasResolution(given()) ? ThinWalls::kReport : ThinWalls::kKeep; }
 
  private:
   CLI::Option* resolution_option_ = nullptr;

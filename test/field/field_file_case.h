@@ -13,7 +13,7 @@
 
 namespace sdf_ccd::test {
 
-constexpr std::uint32_t kFieldVersion = 9;  ///< of the files of fields
+constexpr std::uint32_t kFieldVersion = 10;  ///< of the files of fields
 
 /// A mesh, options of its fields, and a directory for their files.
 class FieldFileCase : public testing::Test {

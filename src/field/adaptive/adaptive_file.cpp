@@ -9,15 +9,15 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint32_t kVersion = 9;
+constexpr std::uint32_t kVersion = 10;
 
 static_assert(sizeof(NodeBases) == 12 && sizeof(AdaptiveNode) == 64 && sizeof(SplitLeaves) == 64,
               "the file's layout must not depend on the compiler");
 
 }  // namespace
 
-void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path,
-                  const std::string& key) {
+void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path, const std::string& key,
+                  const std::optional<LostSurface>& lost) {
   const AdaptiveShape& shape = grid.shape();
   const GridRecord record = gridRecord(shape, shape.size, shape.error_bound, AdaptiveShape::kUnits, field.moved());
   const AdaptiveGrid::Arrays& arrays = grid.arrays();
@@ -25,6 +25,7 @@ void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const st
                                        sectionOf(arrays.bases),      sectionOf(arrays.leaves), sectionOf(arrays.splits),
                                        sectionOf(arrays.leaf_errors)};
   addCaps(field.openings(), sections);
+  addLost(lost, sections);
   writeCheckedFile(path, {kAdaptiveFileKind, kVersion, key}, sections);
 }
 
@@ -51,6 +52,10 @@ DistanceField loadAdaptive(const std::string& path, const std::string& key) {
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }
+}
+
+std::optional<LostSurface> loadLostOfAdaptive(const std::string& path) {
+  return lostIn(*CheckedFile::open(path, {kAdaptiveFileKind, kVersion}), 10, path);
 }
 
 }  // namespace sdf_ccd

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "field/adaptive/adaptive_grid.h"
+#include "field/lost_surface.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "storage/checked_file.h"
 
@@ -13,9 +15,12 @@ constexpr char kAdaptiveFileKind[] = "adaptive field";
 
 /// As saveField(). @param grid  of the field.
 void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path,
-                  const std::string& key);
+                  const std::string& key, const std::optional<LostSurface>& lost);
 
 /// As loadField().
 DistanceField loadAdaptive(const std::string& path, const std::string& key);
+
+/// As loadLostSurface().
+std::optional<LostSurface> loadLostOfAdaptive(const std::string& path);
 
 }  // namespace sdf_ccd
