@@ -128,7 +128,7 @@ class Study {
       trajectory.states[1].positions = edges_[i].end;
       MotionSampling sampling;
       sampling.tolerance = tolerance;
-      return planAlong(robot_.model, completePlan(robot_.model, trajectory, {}, {}), bodies_, {}, sampling);
+      return planAlong(robot_.model, completePlan(robot_.model, trajectory, {}, {}), bodies_, sampling);
     });
   }
 

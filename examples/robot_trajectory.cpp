@@ -42,8 +42,7 @@ int main() {
   trajectory.states.resize(2);
   trajectory.states[0].positions = {{"shoulder", 0.0}, {"elbow", 0.0}};
   trajectory.states[1].positions = {{"shoulder", 1.5}, {"elbow", 0.0}};
-  const PlannedMotion motion =
-      planAlong(robot, completePlan(robot, trajectory, {}, {}), bodiesOf(*scene, robot), {}, {});
+  const PlannedMotion motion = planAlong(robot, completePlan(robot, trajectory, {}, {}), bodiesOf(*scene, robot));
   const CycleResult result = checkMotion(scene, {}, motion);
 
   std::printf("%s, within %.2g m\n", toString(result.verdict), result.error_bound);

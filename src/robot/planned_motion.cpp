@@ -1,6 +1,6 @@
 #include "sdf_ccd/robot/planned_motion.h"
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -38,6 +38,10 @@ void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
     if (motion.missing[body].empty()) {
       motion.X_WB[body].resize(motion.times.size(), Isometry3d(motion.X_WB[body].front()));
       requireUnambiguousTurns(motion.X_WB[body], "planned motion: " + shape.bodies[body]);
+      const std::vector<Isometry3d>& poses = motion.X_WB[body];
+      const auto isFirst = [&](const Isometry3d& X_WB) { return X_WB.matrix() == poses.front().matrix(); };
+      if (!is_moved[body] && !std::all_of(poses.begin(), poses.end(), isFirst))
+        refusePlan(shape.bodies[body] + " moves, though is_moved says that it does not");
     } else {
       motion.X_WB[body].resize(motion.times.size(), Isometry3d::Identity());  // not read
     }
@@ -47,7 +51,7 @@ void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
 }  // namespace
 
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
-                        const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling) {
+                        const MotionSampling& sampling) {
   if (plan.missing.size() != robot.links().size()) refusePlan("a plan that completePlan() has not made");
   if (!bodies.missing.empty() && bodies.missing.size() != bodies.bodies.size())
     refusePlan(std::to_string(bodies.missing.size()) + " reasons for " + std::to_string(bodies.bodies.size()) +
@@ -55,7 +59,6 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   PlannedMotion result;
   result.samples = fromZero(plan.trajectory.times);
   result.assumed = plan.assumed;
-  result.unchecked = reachableAlong(robot, plan, unreachable);
   std::vector<std::string> missing = bodies.missing;
   missing.resize(bodies.bodies.size());
   std::vector<BoundingBall> balls;
@@ -67,6 +70,9 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   const auto along = std::make_shared<TrajectoryMotion>(robot, plan.trajectory, bodies.bodies);
   const std::vector<double> waypoints = along->waypoints();
   result.waypoints = fromZero(waypoints);
+  result.whyReachable = [reach = JointReach(robot, plan, bodies.bodies)](const UnreachablePair& pair) {
+    return reach.whyReachable(pair);
+  };
   result.piece = [along, waypoints, missing, balls, sampling, errors = along->jointErrors()](
                      std::size_t first, std::size_t last, CycleMotion& motion) {
     motion.missing = missing;
@@ -77,13 +83,14 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   return result;
 }
 
-PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
-                          const std::vector<UnreachablePair>& unreachable) {
+PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved) {
   complete(motion, is_moved);
   PlannedMotion result;
   result.samples = result.waypoints = fromZero(motion.times);
-  result.unchecked = reachableAlong(motion, is_moved, unreachable);
   const auto whole = std::make_shared<const CycleMotion>(std::move(motion));
+  result.whyReachable = [whole, is_moved](const UnreachablePair& pair) {
+    return sdf_ccd::whyReachable(*whole, is_moved, pair);
+  };
   result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
     piece.missing = whole->missing;
     piece.motion_error = whole->motion_error;

@@ -157,8 +157,8 @@ RobotModel::Reach RobotModel::reach(const std::string& link_a, const Vector3d& p
   return {nearest, farthest};
 }
 
-std::vector<RobotModel::Slide> RobotModel::slidesBetween(const std::string& link_a, const std::string& link_b) const {
-  std::vector<Slide> slides;
+std::vector<SlideRange> RobotModel::slidesBetween(const std::string& link_a, const std::string& link_b) const {
+  std::vector<SlideRange> slides;
   for (const auto& step : path(indexOf(link_a), indexOf(link_b))) {
     const urdf::Joint& joint = jointAbove(step.first);
     if (joint.type != urdf::Joint::PRISMATIC) continue;

@@ -136,6 +136,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
       scene.allowed.push_back({a, b, reason, isProof(reason) || robot.rigidlyJoined(a, b)});
     }
   }
+  addProofs(robot, scene.bodies, scene.allowed);
   return scene;
 }
 
@@ -160,6 +161,7 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
       if (!reason.empty()) scene.allowed.push_back({body.name, object.name, reason, true});
     }
   }
+  addProofs(robot, scene.bodies, scene.allowed);
 }
 
 }  // namespace sdf_ccd

@@ -10,13 +10,55 @@
 #include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
+#include "robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kWaypointsPerPiece = 16;
 
+/// The pairs that a scene leaves out because they never meet, or never move relative to each other.
+class ProvedPairs {
+ public:
+  explicit ProvedPairs(const Scene& scene) {
+    for (const LeftOut& left_out : scene.left_out) {
+      const LeftOutReason& reason = left_out.reason;
+      if (!left_out.isPair() || !(reason.proof || isProof(reason.text))) continue;
+      pairs_.push_back({{reason.proof ? *reason.proof : PairProof(), left_out.body_a, left_out.body_b},
+                        reason.proof ? "" : reason.text + ", but no proof of it is known"});
+    }
+  }
+
+  /// See uncheckedPairs().
+  std::vector<UncheckedPair> uncheckedAlong(const PlannedMotion& motion) const {
+    std::vector<UncheckedPair> unchecked = motion.unchecked;
+    const auto isListed = [&](const UnreachablePair& pair) {
+      return std::any_of(motion.unchecked.begin(), motion.unchecked.end(), [&](const UncheckedPair& known) {
+        return known.body_a == pair.body_a && known.body_b == pair.body_b;
+      });
+    };
+    for (const Proved& proved : pairs_) {
+      std::string why = proved.doubt;
+      if (why.empty()) why = motion.whyReachable ? motion.whyReachable(proved.pair) : "the motion does not tell of it";
+      if (!why.empty() && !isListed(proved.pair)) unchecked.push_back({proved.pair.body_a, proved.pair.body_b, why});
+    }
+    return unchecked;
+  }
+
+ private:
+  struct Proved {
+    UnreachablePair pair;
+    std::string doubt;  // if the proof is missing
+  };
+
+  std::vector<Proved> pairs_;
+};
+
 }  // namespace
+
+std::vector<UncheckedPair> uncheckedPairs(const Scene& scene, const PlannedMotion& motion) {
+  return ProvedPairs(scene).uncheckedAlong(motion);
+}
 
 struct MotionCheck::Impl {
   const PlannedMotion& motion;
@@ -52,7 +94,7 @@ const CycleMotion& MotionCheck::next() {
 
 CycleResult MotionCheck::result() const {
   CycleResult result = impl_->joiner.result();
-  addUnchecked(impl_->motion.unchecked, result);
+  addUnchecked(uncheckedPairs(impl_->monitor.scene(), impl_->motion), result);
   return result;
 }
 
@@ -73,7 +115,7 @@ namespace {
 class MotionChecker {
  public:
   MotionChecker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
-      : monitor_(std::move(scene), options), wanted_(wanted) {
+      : monitor_(std::move(scene), options), proved_(monitor_.scene()), wanted_(wanted) {
     request_.wrenches = false;
     request_.contacts = false;
     request_.skipped_pairs = false;
@@ -104,7 +146,7 @@ class MotionChecker {
       for (std::size_t i = 0; i < touches.size(); ++i) touches[i].add(start, result.pairs[i]);
       return true;
     });
-    for (const UncheckedPair& pair : motion.unchecked)
+    for (const UncheckedPair& pair : unchecked_)
       found.pairs.push_back({pair.body_a, pair.body_b, Verdict::kNotChecked, motion.waypoints.front()});
     double earliest = kInfinity;
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -141,7 +183,8 @@ class MotionChecker {
     monitor_.reset();  // so that results do not depend on the previous motion
     MotionVerdict found;
     found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
-    if (!motion.unchecked.empty()) {
+    unchecked_ = proved_.uncheckedAlong(motion);
+    if (!unchecked_.empty()) {
       found.verdict = Verdict::kNotChecked;
       found.time = motion.waypoints.front();
     }
@@ -179,9 +222,11 @@ class MotionChecker {
   }
 
   Monitor monitor_;
+  ProvedPairs proved_;
   const MotionsRequest& wanted_;
   CycleRequest request_;
   CycleMotion piece_;
+  std::vector<UncheckedPair> unchecked_;  // of this motion
 };
 
 }  // namespace

@@ -59,10 +59,10 @@ class PairSorter {
   PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene, const JointStates& recorded)
       : robot_(robot), srdf_(srdf) {
     const std::map<std::string, Range> ranges = rangesOf(recorded);
-    for (const UnreachablePair& pair : unreachablePairs(robot, scene.bodies, scene.allowed)) {
+    for (const UnreachablePair& pair : unreachablePairs(scene.bodies, scene.allowed)) {
       if (pair.X_AB) continue;
       const NamePair names = namePair(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
-      const auto isLeft = [&](const RobotModel::Slide& slide) { return isBeyond(slide, ranges); };
+      const auto isLeft = [&](const SlideRange& slide) { return isBeyond(slide, ranges); };
       const auto left = std::find_if(pair.slides.begin(), pair.slides.end(), isLeft);
       if (left == pair.slides.end()) {
         out_of_reach_.insert(names);
@@ -99,7 +99,7 @@ class PairSorter {
 
  private:
   /// Whether the joint, or the one that it mimics, was recorded beyond the range that is assumed.
-  bool isBeyond(const RobotModel::Slide& slide, const std::map<std::string, Range>& recorded) const {
+  bool isBeyond(const SlideRange& slide, const std::map<std::string, Range>& recorded) const {
     const urdf::Joint& joint = *robot_.urdf().getJoint(slide.joint);
     const std::string& named = recorded.count(joint.name) > 0 ? joint.name : robot_.leader(joint).name;
     const auto range = recorded.find(named);

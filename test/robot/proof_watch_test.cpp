@@ -26,7 +26,7 @@ class ProofWatchTest : public ::testing::Test {
  protected:
   bool isContradicted(const std::vector<Isometry3d>& X_WA, const std::vector<Isometry3d>& X_WB) {
     scene_.bodies = {body(object_, true), body(Sphere{kRadius}, false)};
-    pairs_ = {{0, 1, object_ball_, {Vector3d::Zero(), kRadius}, {}, joined_}};
+    pairs_ = {{{object_ball_, {Vector3d::Zero(), kRadius}, {}, joined_}, 0, 1}};
     CycleMotion motion;
     for (std::size_t k = 0; k < X_WB.size(); ++k) motion.times.push_back(static_cast<double>(k));
     motion.X_WB = {X_WA, X_WB};

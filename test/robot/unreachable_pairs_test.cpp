@@ -22,12 +22,16 @@ class UnreachablePairsTest : public ::testing::Test {
   UnreachablePairsTest() : robot_(kRail) {
     std::vector<std::string> warnings;
     scene_ = describeRobot(robot_, {}, {}, {}, warnings);
-    pairs_ = unreachablePairs(robot_, scene_.bodies, scene_.allowed);
+    pairs_ = unreachablePairs(scene_.bodies, scene_.allowed);
   }
 
-  std::vector<UncheckedPair> along(double from, double to) const {
+  std::string along(double from, double to) const {
     const RobotTrajectory named = {{0.0, 1.0}, {{{}, {{"slide", from}}, {}}, {{}, {{"slide", to}}, {}}}};
-    return reachableAlong(robot_, completePlan(robot_, named, {}, {true}), pairs_);
+    return along(completePlan(robot_, named, {}, {true}), {{0, {}, {}}, {2, {}, {}}});
+  }
+
+  std::string along(const PlannedJoints& plan, const std::vector<CarriedBody>& bodies) const {
+    return JointReach(robot_, plan, bodies).whyReachable(pairs_.at(0));
   }
 
   RobotModel robot_;
@@ -47,17 +51,19 @@ TEST_F(UnreachablePairsTest, RestOnTheLimitsOfPrismaticJoints) {
 }
 
 TEST_F(UnreachablePairsTest, AreUncheckedWhereAJointGoesBeyond) {
-  EXPECT_TRUE(along(-1.09, 0.09).empty());
-  ASSERT_EQ(along(-3.0, 0.0).size(), 1u);  // through the other ball
-  EXPECT_EQ(along(-3.0, 0.0)[0].reason, "out of reach only while joint slide is in [-1.1, 0.1]; it is at -3");
-  EXPECT_EQ(along(0.0, 0.2).size(), 1u);
+  EXPECT_EQ(along(-1.09, 0.09), "");
+  // Through the other ball.
+  EXPECT_EQ(along(-3.0, 0.0), "out of reach only while joint slide is in [-1.1, 0.1]; it is at -3");
+  EXPECT_EQ(along(0.0, 0.2), "out of reach only while joint slide is in [-1.1, 0.1]; it is at 0.2");
   CurrentJoints now;  // no current positions
   const RobotTrajectory named = {{0.0, 1.0}, std::vector<RobotState>(2)};
-  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);  // it is unknown
+  const std::vector<CarriedBody> carried = {{0, {}, {}}, {2, {}, {}}};
+  EXPECT_EQ(along(completePlan(robot_, named, now, {}), carried), "out of reach by joint slide, which is not known");
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(2.0, 0.0, 0.0));
-  EXPECT_TRUE(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).empty());
+  EXPECT_EQ(along(completePlan(robot_, named, now, {}), carried), "");
+  EXPECT_NE(along(completePlan(robot_, named, now, {}), {{-1, {}, {}}, {2, {}, {}}}), "") << "not on the robot";
   now.X_PL["slide"] = Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.0));
-  EXPECT_EQ(reachableAlong(robot_, completePlan(robot_, named, now, {}), pairs_).size(), 1u);
+  EXPECT_NE(along(completePlan(robot_, named, now, {}), carried), "");
 }
 
 TEST_F(UnreachablePairsTest, AreUncheckedWherePosesMayBringThemTogether) {
@@ -67,7 +73,7 @@ TEST_F(UnreachablePairsTest, AreUncheckedWherePosesMayBringThemTogether) {
   const auto may = [&](double from, double to) {
     motion.X_WB = {{Isometry3d::Identity(), Isometry3d::Identity()},
                    {Isometry3d(Eigen::Translation3d(from, 0, 0)), Isometry3d(Eigen::Translation3d(to, 0, 0))}};
-    return !reachableAlong(motion, {false, true}, pairs_).empty();
+    return !whyReachable(motion, {false, true}, pairs_.at(0)).empty();
   };
   EXPECT_FALSE(may(3.0, 2.0));
   EXPECT_FALSE(may(1.0, 0.35));
@@ -75,7 +81,7 @@ TEST_F(UnreachablePairsTest, AreUncheckedWherePosesMayBringThemTogether) {
   EXPECT_TRUE(may(3.0, -3.0));
   motion.missing[0] = "no transform";
   EXPECT_TRUE(may(3.0, 2.0));
-  EXPECT_TRUE(reachableAlong(motion, {false, false}, pairs_).empty());
+  EXPECT_EQ(whyReachable(motion, {false, false}, pairs_.at(0)), "");
 }
 
 TEST(RigidlyJoinedPairs, AreUncheckedWherePosesMoveThem) {
@@ -95,7 +101,7 @@ TEST(RigidlyJoinedPairs, AreUncheckedWherePosesMoveThem) {
   table.is_world = true;
   scene.bodies.push_back(table);
   disableUnreachable(robot, scene);
-  const std::vector<UnreachablePair> pairs = unreachablePairs(robot, scene.bodies, scene.allowed);
+  const std::vector<UnreachablePair> pairs = unreachablePairs(scene.bodies, scene.allowed);
   ASSERT_EQ(pairs.size(), 1u);
   ASSERT_TRUE(pairs[0].X_AB);
   EXPECT_TRUE(pairs[0].X_AB->translation().isApprox(Vector3d(3.0, 0.0, -1.0)));
@@ -103,12 +109,10 @@ TEST(RigidlyJoinedPairs, AreUncheckedWherePosesMoveThem) {
   motion.times = {0.0, 1.0};
   motion.missing.resize(2);
   motion.X_WB = {{Isometry3d(Eigen::Translation3d(0, 0, 1))}, {Isometry3d(Eigen::Translation3d(3, 0, 0))}};
-  EXPECT_TRUE(reachableAlong(motion, {true, false}, pairs).empty());
+  EXPECT_EQ(whyReachable(motion, {true, false}, pairs[0]), "");
   motion.X_WB[0].push_back(Isometry3d(Eigen::Translation3d(3, 0, 0)));
-  const std::vector<UncheckedPair> unchecked = reachableAlong(motion, {true, false}, pairs);
-  ASSERT_EQ(unchecked.size(), 1u);
-  EXPECT_EQ(unchecked[0].reason, "rigidly joined in the URDF, but not in these poses");
-  EXPECT_TRUE(reachableAlong(motion, {false, false}, pairs).empty());
+  EXPECT_EQ(whyReachable(motion, {true, false}, pairs[0]), "rigidly joined in the URDF, but not in these poses");
+  EXPECT_EQ(whyReachable(motion, {false, false}, pairs[0]), "");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ class CheckMotionTest : public ::testing::Test {
     }
     MotionSampling sampling;
     sampling.tolerance = tolerance;
-    return planAlong(robot_, completePlan(robot_, trajectory, {}, {}), bodiesOf(scene, robot_), {}, sampling);
+    return planAlong(robot_, completePlan(robot_, trajectory, {}, {}), bodiesOf(scene, robot_), sampling);
   }
 
   const RobotModel robot_{kRod};

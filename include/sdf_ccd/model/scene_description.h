@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
@@ -52,6 +53,20 @@ struct BodyDescription : BodyPlace {
   std::vector<GeometryDescription> geometry;
 };
 
+/// A joint that slides, and the range of positions that is assumed of it [m].
+struct SlideRange {
+  std::string joint;
+  double low;
+  double high;
+};
+
+/// Why two bodies can never meet, or never move relative to each other, as a robot's joints move them.
+struct PairProof {
+  BoundingBall ball_a, ball_b;       ///< contain the geometry, in the body's frame; infinite for half-spaces
+  std::vector<SlideRange> slides;    ///< prismatic joints between them, which must stay in their ranges
+  std::optional<Isometry3d> X_AB;    ///< of a pair that is rigidly joined; it has no slides
+};
+
 /// A pair that is allowed to collide, so it is left out, by the bodies' names.
 struct AllowedPair {
   std::string body_a;
@@ -59,6 +74,7 @@ struct AllowedPair {
   std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
   bool proved = false;  ///< their bodies can never meet: rigidly joined, or out of reach
   double depth = 0.0;   ///< if they overlap at rest: of the deepest point found there [m]
+  std::shared_ptr<const PairProof> proof = {};  ///< of a proved pair; null: nobody can tell whether it holds
 };
 
 /// A pair that a scene leaves out although it needs a check.

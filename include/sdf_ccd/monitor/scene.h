@@ -33,6 +33,8 @@ struct PlannedPair {
 struct LeftOutReason {
   std::string text;    ///< empty: it is not left out
   double depth = 0.0;  ///< as AllowedPair::depth [m]
+  /// Of a pair that is out of reach, rigidly joined or in the same frame, which holds for body_a and body_b of LeftOut.
+  std::shared_ptr<const PairProof> proof = {};
 };
 
 /// A pair, field or shell that a plan leaves out.

@@ -20,7 +20,7 @@ struct WorldSnapshot {
   std::shared_ptr<const Scene> scene;
   std::vector<std::uint64_t> body_ids;  ///< per body: the same in all versions as long as a body of its name exists
 
-  std::vector<std::string> warnings;  ///< about the bodies that were made for this version, and pairs that no test can check
+  std::vector<std::string> warnings;  ///< about bodies made for this version, and pairs without a test
   int prepared = 0;                   ///< bodies whose field, shell or triangles were made for this version
   int shared = 0;                     ///< bodies that reuse one of the same geometry, with another pose or name
   double seconds = 0.0;               ///< time that making it took

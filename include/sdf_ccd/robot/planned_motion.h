@@ -106,8 +106,13 @@ struct PlannedMotion {
   /// Sets the motion of all bodies from one waypoint to a later one; times count from the first of the two.
   std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
 
-  std::vector<double> samples;           ///< times of the plan's points [s], from the first
-  std::vector<UncheckedPair> unchecked;  ///< left out of the scene, though this motion may bring them together
+  std::vector<double> samples;  ///< times of the plan's points [s], from the first
+
+  /// Why a pair may meet along this motion, that a scene leaves out as out of reach or rigidly joined; empty if it
+  /// certainly does not. Checks call it for all such pairs of their scene; if it is not set, none of them is checked.
+  std::function<std::string(const UnreachablePair& pair)> whyReachable;
+  std::vector<UncheckedPair> unchecked;  ///< other pairs that the scene leaves out though they may meet
+
   std::vector<AssumedJoint> assumed;
   std::string notes;  ///< notes for the user about these, by the author of the plan; may be empty
 };
@@ -121,17 +126,17 @@ struct PlannedBodies {
 
 /// The motion of all bodies along a trajectory of the robot's joints.
 /// @param robot  must outlive the motion.
-/// @param unreachable  pairs that the scene leaves out as out of reach.
 /// @throws as TrajectoryMotion; std::invalid_argument also if the plan is not complete.
 PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
-                        const std::vector<UnreachablePair>& unreachable, const MotionSampling& sampling);
+                        const MotionSampling& sampling = {});
 
 /// The motion of all bodies through given poses, at the motion's times; each takes the shorter rotation between two.
-/// @param is_moved  per body: whether its poses come from the plan, not from the robot's joints.
-/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, or two
-/// poses of a body leave the direction of its rotation open (kAmbiguousTurn).
-PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved,
-                          const std::vector<UnreachablePair>& unreachable);
+/// @param is_moved  per body: whether its poses come from the plan, not from the robot's joints. Two bodies of which
+/// neither is moved, and which the scene leaves out as out of reach or rigidly joined, are taken to be where the robot's
+/// joints can have them.
+/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, two
+/// poses of a body leave the direction of its rotation open (kAmbiguousTurn), or a body moves that is said not to.
+PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved);
 
 /// Beyond it, rounding of the sum of margin and error bound would count [m].
 constexpr double kLargestMargin = 1000.0;

@@ -9,6 +9,7 @@
 #include <urdf_model/model.h>
 
 #include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
 
@@ -94,14 +95,8 @@ class RobotModel {
   /// The same for a point of link A and a point of link B, each in its link's frame [m].
   Reach reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
 
-  /// A prismatic joint, and the range of positions assumed by reach() [m].
-  struct Slide {
-    std::string joint;
-    double low;
-    double high;
-  };
   /// The prismatic joints between two links, with the ranges beyond which reach() does not hold.
-  std::vector<Slide> slidesBetween(const std::string& link_a, const std::string& link_b) const;
+  std::vector<SlideRange> slidesBetween(const std::string& link_a, const std::string& link_b) const;
 
   /// The joint position whose pose of the child link in the parent link's frame is closest to the given one [rad or m].
   /// A pose does not determine whole revolutions: for a revolute joint, the position within its limits if there is one,

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +65,8 @@ struct RobotSceneOptions {
 /// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
 /// that are rigidly joined, disabled by the SRDF, adjacent (unless requested, or enabled by the SRDF by name), and out
 /// of reach of each other for all joint positions, by RobotModel::reach() between balls around their geometry. The
-/// assumptions of the first and the last must be monitored: unreachablePairs().
+/// first and the last rest on assumptions, AllowedPair::proof, which checks of planned motions examine; in cycles they
+/// must be monitored: unreachablePairs().
 /// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
 /// robot's name or with links that the robot does not have; RobotModel::warnings(), Srdf::warnings. Failures are not
 /// repeated here.
@@ -81,17 +81,14 @@ void disableUnreachable(const RobotModel& robot, SceneDescription& scene);
 
 /// A pair that is left out of a scene because its bodies never meet, or never move relative to each other, and the
 /// assumptions of this.
-struct UnreachablePair {
-  int body_a = -1, body_b = -1;           ///< in SceneDescription::bodies
-  BoundingBall ball_a, ball_b;            ///< contain the geometry, in the body's frame; infinite for half-spaces
-  std::vector<RobotModel::Slide> slides;  ///< prismatic joints between them, which must stay in their ranges
-  std::optional<Isometry3d> X_AB;         ///< of a pair that is rigidly joined; it has no slides
+struct UnreachablePair : PairProof {
+  int body_a = -1, body_b = -1;  ///< in SceneDescription::bodies
 };
 
+/// Those that are left out for such a reason, and not because a rule of the user allows them to touch.
 /// @param bodies   of the scene.
 /// @param allowed  all that will be, or some of them.
-/// @param prefix   of the frames of links, where these are not the links' names.
-std::vector<UnreachablePair> unreachablePairs(const RobotModel& robot, const std::vector<BodyDescription>& bodies,
-                                              const std::vector<AllowedPair>& allowed, const std::string& prefix = {});
+std::vector<UnreachablePair> unreachablePairs(const std::vector<BodyDescription>& bodies,
+                                              const std::vector<AllowedPair>& allowed);
 
 }  // namespace sdf_ccd

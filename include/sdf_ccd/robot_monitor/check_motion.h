@@ -26,8 +26,8 @@ class MotionCheck {
   /// Checks the next piece, of some milliseconds, and returns its motion, which is valid until the next call.
   const CycleMotion& next();
 
-  /// The result of all checked pieces, and of pairs that the scene leaves out although they may meet. The pairs' spans
-  /// are {0, 1}, the first and the last time of ends().
+  /// The result of all checked pieces, and of uncheckedPairs(). The pairs' spans are {0, 1}, the first and the last time
+  /// of ends().
   CycleResult result() const;
   /// The bodies' poses at the first and the last time checked.
   const CycleMotion& ends() const;
@@ -36,6 +36,10 @@ class MotionCheck {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The pairs that a scene leaves out because they never meet, though the motion may bring them together or does not tell,
+/// and those of PlannedMotion::unchecked. They are NOT_CHECKED.
+std::vector<UncheckedPair> uncheckedPairs(const Scene& scene, const PlannedMotion& motion);
 
 /// Checks all of a planned motion.
 CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,

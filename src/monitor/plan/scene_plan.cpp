@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 
 #include "body/body_builder.h"
 #include "body/body_triangles.h"
 #include "model/name_pair.h"
+#include "model/proofs.h"
 #include "surface_needs.h"
 
 namespace sdf_ccd {
@@ -50,19 +52,20 @@ bool isBox(const BodyDescription& body) {
   return primitive && std::holds_alternative<Box>(*primitive);
 }
 
-std::map<NamePair, LeftOutReason> allowedPairs(const SceneDescription& description) {
+/// The allowed pairs by their names, the first one of each.
+std::map<NamePair, const AllowedPair*> allowedPairs(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
     if (!names.insert(body.name).second)
       throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
   }
-  std::map<NamePair, LeftOutReason> reasons;
+  std::map<NamePair, const AllowedPair*> pairs;
   for (const AllowedPair& pair : description.allowed) {
     if (pair.body_a == pair.body_b)
       throw std::invalid_argument("scene: an allowed pair names \"" + pair.body_a + "\" twice");
-    reasons.emplace(namePair(pair.body_a, pair.body_b), LeftOutReason{pair.reason, pair.depth});
+    pairs.emplace(namePair(pair.body_a, pair.body_b), &pair);
   }
-  return reasons;
+  return pairs;
 }
 
 /// A map's tile that cannot be checked is expected to come later, so what it needs is prepared.
@@ -70,12 +73,44 @@ bool isPlanned(const BodyDescription& body) {
   return body.failure.empty() || !body.map.empty();
 }
 
+/// The proof about a pair whose bodies are named in the other order.
+std::shared_ptr<const PairProof> reversed(const PairProof& proof) {
+  PairProof other{proof.ball_b, proof.ball_a, proof.slides, {}};
+  if (proof.X_AB) other.X_AB = proof.X_AB->inverse();
+  return std::make_shared<const PairProof>(std::move(other));
+}
+
+/// A ball about the body's origin that contains it.
+BoundingBall ballAbout(const BodyDescription& body) {
+  BoundingBall ball;
+  for (const GeometryDescription& geometry : body.geometry) {
+    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+    if (mesh && !*mesh) continue;
+    const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
+    if (!box.sizes().allFinite()) return {Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+    for (int k = 0; k < 8; ++k)
+      ball.radius = std::max(ball.radius, (geometry.X_BG * box.corner(AlignedBox3d::CornerType(k))).norm());
+  }
+  return ball;
+}
+
+std::shared_ptr<const PairProof> inSameFrame(const BodyDescription& a, const BodyDescription& b) {
+  return std::make_shared<const PairProof>(
+      PairProof{ballAbout(a), ballAbout(b), {}, Isometry3d(a.X_frame_B.inverse() * b.X_frame_B)});
+}
+
 /// Why the pair is not tested; empty if it is.
 LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
-                         const std::map<NamePair, LeftOutReason>& allowed) {
+                         const std::map<NamePair, const AllowedPair*>& allowed) {
   const auto found = allowed.find(namePair(a.name, b.name));
-  if (found != allowed.end()) return found->second;
-  if (a.frame == b.frame) return {"in the same frame"};
+  if (found != allowed.end()) {
+    const AllowedPair& pair = *found->second;
+    LeftOutReason reason{pair.reason, pair.depth};
+    if (isProof(pair.reason) && pair.proof) reason.proof = pair.body_a == a.name ? pair.proof : reversed(*pair.proof);
+    return reason;
+  }
+  if (a.frame == b.frame) return {"in the same frame", 0.0, inSameFrame(a, b)};
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
   return {};
@@ -141,7 +176,7 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
-  const std::map<NamePair, LeftOutReason> allowed = allowedPairs(description);
+  const std::map<NamePair, const AllowedPair*> allowed = allowedPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs.assign(count, {false, false, false, false});

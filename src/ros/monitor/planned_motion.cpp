@@ -173,7 +173,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
         {carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], motionBall(planned.scene.bodies[body])});
     if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   }
-  PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.unreachable, planned.sampling);
+  PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.sampling);
   addContradicted(planned, result);
   result.notes = notesOf(plan);
   const std::string carried = movesRoot(request, planned) ? carriedObjectsNote(planned) : "";
@@ -220,7 +220,7 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     motion.missing[body].clear();
     is_moved[body] = true;
   }
-  PlannedMotion result = planThrough(std::move(motion), is_moved, planned.unreachable);
+  PlannedMotion result = planThrough(std::move(motion), is_moved);
   addContradicted(planned, is_moved, result);
   return result;
 }

@@ -285,7 +285,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       try {
         PlannedMotion planned = toPlannedMotion(requestOf(request, first + i), now);
         notes.add(first + i, planned.notes);
-        for (const UncheckedPair& pair : planned.unchecked)
+        for (const UncheckedPair& pair : uncheckedPairs(scene, planned))
           notes.add(first + i, pairName(scene, pair) + ": " + pair.reason);
         return planned;
       } catch (const std::invalid_argument& error) {

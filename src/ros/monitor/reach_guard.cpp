@@ -16,7 +16,7 @@ ReachGuard::ReachGuard(const CheckedWorld& world, const DescribedScene& describe
       chains_({}) {
   std::vector<std::string> frames;
   for (std::size_t p = 0; p < slides_.size(); ++p) {
-    for (const RobotModel::Slide& slide : world.unreachable[p].slides) {
+    for (const SlideRange& slide : world.unreachable[p].slides) {
       const auto known =
           std::find_if(joints_.begin(), joints_.end(), [&](const Joint& j) { return j.slide.joint == slide.joint; });
       slides_[p].push_back(static_cast<std::size_t>(known - joints_.begin()));

@@ -26,7 +26,7 @@ class ReachGuard {
 
  private:
   struct Joint {
-    RobotModel::Slide slide;
+    SlideRange slide;
     const urdf::Joint* joint;
     ros::Time until;      // it was looked at up to here
     std::string problem;  // in the last cycle

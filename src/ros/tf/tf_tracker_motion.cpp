@@ -23,6 +23,8 @@ void sortOnce(std::vector<double>& values, std::size_t from) {
   values.erase(std::unique(first, values.end()), values.end());
 }
 
+constexpr double kFastest = 1000.0, kJump = 100.0;  // see TfTracker: of a frame that has jumped [m/s, m]
+
 /// Period in which a body is needed, in the time of the samples [s].
 struct Needed {
   double from, until;
@@ -59,18 +61,41 @@ void TfTracker::sampleParts(TrackedCycle& cycle) {
   findJumps(motion);
 }
 
-/// Reports bodies that move faster than any robot: a map's frame was set to another pose, for example. Such a body
-/// swept nothing on its path, and testing all of the path would take seconds.
+/// Reports bodies that move faster than any robot, also as seen from a body that they are checked against: a map's
+/// frame was set to another pose, for example. Such a body swept nothing on its path, and testing all of the path would
+/// take seconds.
+///
+/// Both are measured at the bodies' balls. The origin of a frame may be kilometres away from what is in it, and moves
+/// at thousands of metres per second in the frame of a robot that merely turns there. So does a body at that distance,
+/// and the ball of a half-space says nothing about it near the robot: hence the view from the other body.
 void TfTracker::findJumps(CycleMotion& motion) const {
-  constexpr double kFastest = 1000.0, kJump = 100.0;  // [m/s, m]
-  for (std::size_t body = 0; body < bodies_.size(); ++body) {
-    const std::vector<Isometry3d>& poses = motion.X_WB[body];
+  const std::size_t samples = motion.times.size();
+  const auto jump = [&](const auto& pointAt) {
     double jumped = 0.0;
-    for (std::size_t k = 1; k < poses.size() && motion.missing[body].empty(); ++k) {
-      const double distance = (poses[k].translation() - poses[k - 1].translation()).norm();
+    for (std::size_t k = 1; k < samples; ++k) {
+      const double distance = (pointAt(k) - pointAt(k - 1)).norm();
       if (distance > kFastest * (motion.times[k] - motion.times[k - 1])) jumped += distance;
     }
-    if (jumped > kJump) motion.missing[body] = fmt::format("{} has jumped by {:.0f} m", frames_[body], jumped);
+    return jumped > kJump ? jumped : 0.0;
+  };
+  const auto isKnown = [&](std::size_t body) { return motion.missing[body].empty() && !motion.X_WB[body].empty(); };
+  const auto center_W = [&](std::size_t body, std::size_t k) -> Vector3d {
+    return motion.pose(static_cast<int>(body), k) * bodies_[body].ball_B.center;
+  };
+  for (std::size_t body = 0; body < bodies_.size(); ++body) {
+    if (!isKnown(body) || motion.X_WB[body].size() < samples) continue;
+    const double jumped = jump([&](std::size_t k) { return center_W(body, k); });
+    if (jumped == 0.0) continue;
+    const auto isSeenBy = [&](std::size_t other) {
+      return isKnown(other) && jump([&](std::size_t k) -> Vector3d {
+               return motion.X_WB[body][k].inverse() * center_W(other, k);
+             }) > 0.0;
+    };
+    const bool is_seen = std::any_of(pairs_.begin(), pairs_.end(), [&](const PlannedPair& pair) {
+      const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
+      return (a == body && isSeenBy(b)) || (b == body && isSeenBy(a));
+    });
+    if (is_seen) motion.missing[body] = fmt::format("{} has jumped by {:.0f} m", frames_[body], jumped);
   }
 }
 

@@ -114,6 +114,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       scene.allowed.push_back({body_a.name, body_b.name, reason, proved});
     }
   }
+  addProofs(*start_up_->robot, scene.bodies, scene.allowed, start_up_->tf_prefix);
   return scene;
 }
 
@@ -134,8 +135,7 @@ std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& 
   std::vector<AllowedPair> joined;  // since then
   for (const AllowedPair& pair : description.allowed)
     if (pair.reason == kRigidlyJoined && (hasChanged(pair.body_a) || hasChanged(pair.body_b))) joined.push_back(pair);
-  const std::vector<UnreachablePair> later =
-      unreachablePairs(*start_up_->robot, description.bodies, joined, start_up_->tf_prefix);
+  const std::vector<UnreachablePair> later = unreachablePairs(description.bodies, joined);
   pairs.insert(pairs.end(), later.begin(), later.end());
   return pairs;
 }

@@ -114,7 +114,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   }
   described.overlap_rule = {parameters.overlapping_pairs, parameters.pairs.checked};
   for (const auto& [a, b] : srdf.enabled) described.overlap_rule.kept.push_back({a, b});
-  described.unreachable = unreachablePairs(*robot, described.scene.bodies, proved);
+  described.unreachable = unreachablePairs(described.scene.bodies, proved);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }

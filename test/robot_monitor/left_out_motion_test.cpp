@@ -1,0 +1,152 @@
+// Pairs that a scene leaves out because the robot's joints cannot bring them together, along motions in which something
+// else does.
+#include <gtest/gtest.h>
+
+#include "robot_monitor/check_motion_case.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// A carriage on a rail, which its limits keep a metre away from the rail's post. Its arm turns beside a hand, to which
+/// it is rigidly joined.
+constexpr const char* kRail = R"(<robot name='r'>
+  <link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+  <link name='carriage'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+  <link name='hand'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
+  <joint name='slide' type='prismatic'><parent link='base'/><child link='carriage'/><origin xyz='3 0 0'/>
+    <axis xyz='1 0 0'/><limit lower='-1' upper='0' effort='1' velocity='1'/></joint>
+  <joint name='hold' type='fixed'><parent link='carriage'/><child link='hand'/><origin xyz='0 0 1'/></joint>
+</robot>)";
+
+class LeftOutMotion : public ::testing::Test {
+ protected:
+  LeftOutMotion() {
+    std::vector<std::string> warnings;
+    description_ = describeRobot(robot_, {}, {}, {true}, warnings);
+    // Between bodies that may meet, so that there is something to check.
+    BodyDescription ball;
+    ball.name = "ball";
+    ball.frame = "base";
+    ball.X_frame_B = Eigen::Translation3d(0.0, 5.0, 0.0);
+    ball.geometry.push_back({Primitive(Sphere{0.1}), Isometry3d::Identity(), "sphere"});
+    ball.is_world = true;
+    description_.bodies.push_back(ball);
+  }
+
+  std::shared_ptr<const Scene> scene() const {
+    const BodyOptions options = optionsFor({4e-3, {}});
+    return std::make_shared<const Scene>(
+        buildScene(description_, planScene(description_, planOptions(options)), options));
+  }
+
+  PlannedJoints plan(double from, double to) const {
+    RobotTrajectory trajectory;
+    trajectory.times = {0.0, 1.0};
+    trajectory.states.resize(2);
+    trajectory.states[0].positions["slide"] = from;
+    trajectory.states[1].positions["slide"] = to;
+    return completePlan(robot_, trajectory, {}, {true});
+  }
+
+  const RobotModel robot_{kRail};
+  SceneDescription description_;
+};
+
+/// Names of the pairs that are not checked, with their reasons.
+std::vector<std::string> uncheckedOf(const Scene& scene, const CycleResult& result) {
+  std::vector<std::string> names;
+  for (const PairResult& pair : result.pairs)
+    if (pair.verdict == Verdict::kNotChecked)
+      names.push_back(scene.bodies[pair.body_a].name + " - " + scene.bodies[pair.body_b].name + ": " + pair.reason);
+  return names;
+}
+
+TEST_F(LeftOutMotion, BeyondTheLimitsIsNotChecked) {
+  const auto scene = this->scene();
+  ASSERT_EQ(scene->pairs.size(), 2u) << planTable(*scene);  // of the ball with what moves
+  EXPECT_EQ(checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_))).verdict,
+            Verdict::kClear);
+  const CycleResult through = checkMotion(scene, {}, planAlong(robot_, plan(0.0, -6.0), bodiesOf(*scene, robot_)));
+  EXPECT_EQ(through.verdict, Verdict::kNotChecked) << "the carriage goes through the base";
+  EXPECT_EQ(uncheckedOf(*scene, through),
+            (std::vector<std::string>{
+                "base - carriage: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6",
+                "base - hand: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6"}));
+}
+
+TEST_F(LeftOutMotion, BeyondTheLimitsIsNotCheckedAmongManyMotions) {
+  const auto scene = this->scene();
+  MotionsRequest listed;
+  listed.list_pairs = true;
+  for (const MotionsRequest& request : {MotionsRequest(), listed}) {
+    const std::vector<MotionVerdict> verdicts = checkMotions(
+        scene, {}, 2,
+        [&](std::size_t i, double) {
+          return planAlong(robot_, plan(0.0, i == 0 ? -1.0 : -6.0), bodiesOf(*scene, robot_));
+        },
+        request);
+    EXPECT_EQ(verdicts[0].verdict, Verdict::kClear);
+    EXPECT_EQ(verdicts[1].verdict, Verdict::kNotChecked);
+    EXPECT_EQ(verdicts[1].pairs.size(), request.list_pairs ? 2u : 0u);
+  }
+}
+
+TEST_F(LeftOutMotion, WhatIsNotCarriedAsTheUrdfSaysIsNotChecked) {
+  const auto scene = this->scene();
+  PlannedBodies bodies = bodiesOf(*scene, robot_);
+  bodies.bodies[2].link = -1;  // the hand stays behind
+  const CycleResult result = checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodies));
+  EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+  EXPECT_EQ(uncheckedOf(*scene, result).size(), 2u);
+}
+
+TEST_F(LeftOutMotion, AMotionThatTellsNothingOfThemIsNotChecked) {
+  const auto scene = this->scene();
+  PlannedMotion motion = planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_));
+  motion.whyReachable = nullptr;
+  EXPECT_EQ(checkMotion(scene, {}, motion).verdict, Verdict::kNotChecked);
+}
+
+TEST_F(LeftOutMotion, APairWithoutItsProofIsNotChecked) {
+  for (AllowedPair& pair : description_.allowed) pair.proof.reset();
+  const auto scene = this->scene();
+  EXPECT_EQ(checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_))).verdict,
+            Verdict::kNotChecked);
+}
+
+TEST_F(LeftOutMotion, PosesThatContradictTheUrdfAreNotChecked) {
+  BodyDescription tool = description_.bodies.back();
+  tool.name = "tool";
+  tool.frame = "hand";
+  tool.X_frame_B = Eigen::Translation3d(0.0, 0.0, 0.3);
+  tool.is_world = false;
+  description_.bodies.push_back(tool);
+  std::swap(description_.allowed[0].body_a, description_.allowed[0].body_b);  // whatever the order of the names
+  const auto scene = this->scene();
+  const auto verdict = [&](const Vector3d& carriage, const Vector3d& hand, const Vector3d& tool) {
+    const auto at = [](const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); };
+    CycleMotion motion;
+    motion.times = {0.0, 1.0};
+    motion.X_WB = {{at({0, 0, 0})}, {at({3, 0, 0}), at(carriage)}, {at({3, 0, 1}), at(hand)}, {at({0, 5, 0})},
+                   {at({3, 0, 1.3}), at(tool)}};
+    return checkMotion(scene, {}, planThrough(motion, {false, true, true, false, true})).verdict;
+  };
+  EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 1}, {2, 0, 1.3}), Verdict::kClear);
+  EXPECT_EQ(verdict({-3, 0, 0}, {-3, 0, 1}, {-3, 0, 1.3}), Verdict::kNotChecked) << "through the base";
+  EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 0.1}, {2, 0, 0.4}), Verdict::kNotChecked) << "the hand into the carriage";
+  EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 1}, {2, 0, 1.1}), Verdict::kNotChecked) << "the tool, in the frame of the hand";
+}
+
+TEST_F(LeftOutMotion, ABodyMovesOnlyIfItIsSaidTo) {
+  CycleMotion motion;
+  motion.times = {0.0, 1.0};
+  motion.X_WB = {{Isometry3d::Identity()},
+                 {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}};
+  EXPECT_NO_THROW(planThrough(motion, {false, true}));
+  EXPECT_THROW(planThrough(motion, {true, false}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sdf_ccd
