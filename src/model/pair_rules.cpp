@@ -7,7 +7,6 @@
 #include "name_pair.h"
 
 namespace sdf_ccd {
-namespace {
 
 void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const SceneDescription& scene,
                    std::vector<std::string>& warnings) {
@@ -21,8 +20,6 @@ void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const S
       warnings.push_back(std::string(list) + ": no body is named " + pattern + suggestion(pattern, names));
     }
 }
-
-}  // namespace
 
 bool isPattern(const std::string& text) {
   return text.find_first_of("*?") != std::string::npos;

@@ -28,6 +28,10 @@ bool matchesAny(const std::vector<PairRule>& rules, const std::string& name_a, c
 /// Why a pair is left out by the rules: "allowed_pairs: hand* - table"; empty if it is not.
 std::string whyAllowed(const PairRules& rules, const std::string& name_a, const std::string& name_b);
 
+/// Adds a warning for each pattern of the rules that matches no body's name. @param list  the rules' parameter.
+void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const SceneDescription& scene,
+                   std::vector<std::string>& warnings);
+
 /// Leaves out pairs of a scene that are allowed to touch, and includes pairs that are to be checked although they were
 /// left out, except for AllowedPair::proved ones.
 /// @param scene     with all of its bodies and allowed pairs.

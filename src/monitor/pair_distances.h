@@ -31,9 +31,11 @@ struct PairDistance {
   int pair = -1;  ///< in Scene::pairs
   int body_a = -1, body_b = -1;
   bool is_with_map = false;  ///< one body is a tile of a map
-  double time = 0.0;         ///< [s] from t₀ of the last cycle; negative for a delayed pair
-  double distance = 0.0;     ///< [m]; 0 if the bodies touch at that time
-  double error = 0.0;        ///< upper bound of the error of `distance` [m]
+  /// No moving transform is in the chain of either body, and neither is a tile, which the next map may change.
+  bool is_constant = false;
+  double time = 0.0;      ///< [s] from t₀ of the last cycle; negative for a delayed pair
+  double distance = 0.0;  ///< [m]; 0 if the bodies touch at that time
+  double error = 0.0;     ///< upper bound of the error of `distance` [m]
   Vector3d p_A_W = Vector3d::Zero(), p_B_W = Vector3d::Zero();  ///< witness points on A and on B [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from A to B; zero if the bodies touch and it is not known
   double closing_speed = 0.0;            ///< of the witness points along the normal, mean over the last step [m/s]

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace sdf_ccd {
 
 /// Distance level of a scene, from two thresholds.
@@ -11,28 +13,23 @@ struct ProximityThresholds {
   double hysteresis = 0.0;  ///< a level is left only at its threshold plus this [m]
 
   bool any() const { return warning > 0.0 || stop > 0.0; }
-
-  /// Pairs that are certainly farther apart than this cannot change the level [m].
-  double range() const { return any() ? (warning > stop ? warning : stop) + hysteresis : 0.0; }
 };
 
 /// Follows the level over cycles. It rises at once, and falls with hysteresis.
 class ProximityWatch {
  public:
-  /// @param distance  lower bound of all distances [m]; 0 where bodies touch, may touch, or are not checked.
-  Proximity update(double distance, const ProximityThresholds& thresholds) {
-    const auto isWithin = [&](Proximity level, double threshold) {
-      return threshold > 0.0 && distance < threshold + (level_ >= level ? thresholds.hysteresis : 0.0);
-    };
-    level_ = !thresholds.any()                                   ? Proximity::kNotWatched
-             : isWithin(Proximity::kStop, thresholds.stop)       ? Proximity::kStop
-             : isWithin(Proximity::kWarning, thresholds.warning) ? Proximity::kWarning
-                                                                 : Proximity::kFree;
+  /// @param to_warning, to_stop  how much farther the pairs are than their thresholds, the least of all pairs [m];
+  /// infinite for a level that is not watched.
+  Proximity update(double to_warning, double to_stop, double hysteresis) {
+    const auto isWithin = [&](Proximity level, double margin) { return margin < (level_ >= level ? hysteresis : 0.0); };
+    level_ = isWithin(Proximity::kStop, to_stop)         ? Proximity::kStop
+             : isWithin(Proximity::kWarning, to_warning) ? Proximity::kWarning
+                                                         : Proximity::kFree;
     return level_;
   }
 
  private:
-  Proximity level_ = Proximity::kNotWatched;
+  Proximity level_ = Proximity::kFree;
 };
 
 }  // namespace sdf_ccd

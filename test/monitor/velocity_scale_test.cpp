@@ -28,6 +28,13 @@ StoppingPromise anyPromise(Random& random) {
   return promise;
 }
 
+/// Of one cycle alone.
+ScaleLimit limitOf(const std::vector<PairDistance>& pairs, const std::vector<PairTraits>& traits, double age,
+                   double oldest, const StoppingPromise& promise) {
+  const ScaleLimits limits = velocityScales(pairs, traits, age, oldest, 1.0, promise);
+  return limits.measured.scale < limits.promised.scale ? limits.measured : limits.promised;
+}
+
 /// A robot that just keeps its promise: it obeys as late and moves as fast as the promise allows.
 class Robot {
  public:
@@ -96,7 +103,7 @@ Outcome close(const StoppingPromise& promise, Random& random, bool is_greedy) {
         pair.any.width = widths[i - age];
         pair.any.over = over * kStep;
         pair.any.closing = (widths[i - age - over] - widths[i - age]) / pair.any.over;
-        robot.hear(now, velocityScale({pair}, age * kStep, age * kStep, promise));
+        robot.hear(now, limitOf({pair}, {}, age * kStep, age * kStep, promise).scale);
       }
       // The next scale comes in time, or for a while none comes.
       next_scale = now + (uniform(random, 0.0, 1.0) < 0.02 ? 5.0 : 0.95) * promise.period;
@@ -131,17 +138,18 @@ TEST(VelocityScale, WhatIsFarOrOpensIsNotSlowed) {
   StoppingPromise promise;
   promise.max_acceleration = 1.0;
   PairDistance pair;
-  pair.any = {scaleRange(promise), promise.max_speed, 0.0};
-  EXPECT_EQ(velocityScale({pair}, promise.max_age, promise.max_age, promise), 1.0);
+  pair.any = {scaleRange(promise, promise.stop_distance), promise.max_speed, 0.0};
+  EXPECT_EQ(limitOf({pair}, {}, promise.max_age, promise.max_age, promise).scale, 1.0);
   pair.any = {0.1, promise.max_speed, 0.01};
-  EXPECT_LT(velocityScale({pair}, 0.0, 0.0, promise), 0.2);
+  EXPECT_LT(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.2);
   pair.slab = ClosingGap{0.1, -0.5, 0.01};  // along it they separate
-  EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.25);
-  EXPECT_EQ(velocityScale({}, 0.0, 0.0, promise), 1.0);
-  EXPECT_EQ(velocityScale({}, 0.0, promise.max_age + 1e-3, promise), 0.0);  // some data are too old; no pair is near
-  EXPECT_EQ(velocityScale({pair}, promise.max_age + 1e-3, 0.0, promise), 0.0);  // the pair's data are too old
+  EXPECT_GT(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.25);
+  EXPECT_EQ(limitOf({}, {}, 0.0, 0.0, promise).scale, 1.0);
+  const double too_old = promise.max_age + 1e-3;
+  EXPECT_EQ(limitOf({}, {}, 0.0, too_old, promise).scale, 0.0);      // some data are too old; no pair is near
+  EXPECT_EQ(limitOf({pair}, {}, too_old, 0.0, promise).scale, 0.0);  // the pair's data are too old
   pair.any = *pair.slab = {0.0, 0.0, 0.01};
-  EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
+  EXPECT_EQ(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.0);
 }
 
 TEST(VelocityScale, WhatIsIgnoredInAMapIsNotApproached) {
@@ -149,10 +157,147 @@ TEST(VelocityScale, WhatIsIgnoredInAMapIsNotApproached) {
   promise.map_distance = 0.45;
   PairDistance pair;
   pair.any = {0.5, 0.0, 0.01};
-  EXPECT_GT(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
+  EXPECT_GT(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.0);
   pair.is_with_map = true;
-  EXPECT_EQ(velocityScale({pair}, 0.0, 0.0, promise), 0.0);
-  EXPECT_NEAR(scaleRange(promise), 0.45 + scaleRange(StoppingPromise()), 1e-12);
+  EXPECT_EQ(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.0);
+  EXPECT_NEAR(scaleRange(promise, 0.0), 0.45 + scaleRange(StoppingPromise(), 0.0), 1e-12);
+  EXPECT_NEAR(scaleRange(promise, 0.5), 0.5 + scaleRange(StoppingPromise(), 0.0), 1e-12);
+}
+
+std::vector<PairTraits> ofOneOwnPair() {
+  PairTraits own;
+  own.is_own = true;
+  return {own};
+}
+
+PairDistance pairAt(double width, double closing = 0.0) {
+  PairDistance pair;
+  pair.pair = 0;
+  pair.normal_W = Vector3d::UnitX();
+  pair.any = {width, std::abs(closing), 0.01};
+  pair.closing_speed = closing;
+  return pair;
+}
+
+TEST(VelocityScale, OwnPairsLimitOnlyWhileTheyClose) {
+  StoppingPromise promise;
+  promise.stop_distance = 0.005;
+  const std::vector<PairTraits> own = ofOneOwnPair();
+  const auto scale = [&](const PairDistance& pair) { return limitOf({pair}, own, 0.02, 0.02, promise).scale; };
+  EXPECT_EQ(limitOf({pairAt(0.022)}, {}, 0.02, 0.02, promise).scale, 0.0);  // of the world
+  EXPECT_EQ(scale(pairAt(0.022)), 1.0);                                     // a wrist's gap
+  EXPECT_EQ(scale(pairAt(0.022, -0.5)), 1.0);
+  EXPECT_EQ(scale(pairAt(0.022, 0.03)), 1.0);  // it can stop from that
+  EXPECT_LT(scale(pairAt(0.022, 0.5)), 0.1);
+  EXPECT_GT(scale(pairAt(0.022, 0.5)), 0.05);
+  EXPECT_EQ(scale(pairAt(0.005)), 0.0);
+  EXPECT_EQ(scale(pairAt(0.004, -0.5)), 0.0);
+  PairDistance unknown = pairAt(0.022);  // where the direction is not known, the fastest point counts
+  unknown.normal_W.setZero();
+  unknown.any.closing = 0.5;
+  EXPECT_LT(scale(unknown), 0.1);
+  const ScaleLimit limit = limitOf({pairAt(1.0), pairAt(0.022, 0.5)}, own, 0.02, 0.02, promise);
+  ASSERT_TRUE(limit.pair);
+  EXPECT_EQ(limit.pair->any.width, 0.022);
+}
+
+TEST(VelocityScale, OwnPairsCanCountByWhatTheyCanDo) {
+  StoppingPromise promise;
+  promise.own_pairs = OwnPairs::kPromise;
+  std::vector<PairTraits> own = ofOneOwnPair();
+  const auto scale = [&](double width) { return limitOf({pairAt(width)}, own, 0.0, 0.0, promise).scale; };
+  EXPECT_EQ(scale(0.022), 0.0);
+  EXPECT_EQ(scale(0.022), limitOf({pairAt(0.022)}, {}, 0.0, 0.0, promise).scale);
+  own[0].max_closing = 0.05;  // its joints are slow
+  EXPECT_EQ(scale(standstillDistance(promise, 0.0, 0.05) - 1e-6), 0.0);
+  EXPECT_GT(scale(standstillDistance(promise, 0.0, 0.05) + 1e-4), 0.0);
+  EXPECT_EQ(scale(0.022), 1.0);
+}
+
+TEST(VelocityScale, APairWhoseDistanceCannotChangeLimitsInNeitherRule) {
+  StoppingPromise promise;
+  promise.stop_distance = 0.03;
+  for (const OwnPairs rule : {OwnPairs::kMeasured, OwnPairs::kPromise}) {
+    promise.own_pairs = rule;
+    std::vector<PairTraits> own = ofOneOwnPair();
+    EXPECT_EQ(limitOf({pairAt(0.02)}, own, 0.0, 0.0, promise).scale, 0.0);
+    own[0].is_constant = true;
+    EXPECT_EQ(limitOf({pairAt(0.02)}, own, 0.0, 0.0, promise).scale, 1.0);
+    EXPECT_EQ(limitOf({pairAt(0.0)}, own, 0.0, 0.0, promise).scale, 0.0);  // they touch
+    PairDistance at_rest = pairAt(0.02);                                   // a table and the base that stands on it
+    at_rest.is_constant = true;
+    EXPECT_EQ(limitOf({at_rest}, {}, 0.0, 0.0, promise).scale, 1.0);
+  }
+}
+
+TEST(VelocityScale, APairMayHaveItsOwnStopDistance) {
+  StoppingPromise promise;
+  promise.stop_distance = 0.05;
+  std::vector<PairTraits> traits = ofOneOwnPair();
+  EXPECT_EQ(limitOf({pairAt(0.02)}, traits, 0.0, 0.0, promise).scale, 0.0);
+  traits[0].stop_distance = 0.005;
+  EXPECT_EQ(limitOf({pairAt(0.02)}, traits, 0.0, 0.0, promise).scale, 1.0);
+  traits[0] = {};
+  traits[0].stop_distance = 0.4;
+  EXPECT_EQ(limitOf({pairAt(0.45)}, traits, 0.0, 0.0, promise).scale, 0.0);
+  EXPECT_GT(limitOf({pairAt(0.45)}, {}, 0.0, 0.0, promise).scale, 0.0);
+  EXPECT_EQ(largestStopDistance(traits, 0.05), 0.4);
+}
+
+/// Two links of a robot that a program closes at C, by the scale; its data are old, and it obeys late.
+struct OwnClosing {
+  double least = 1e300;  // width minus the stop distance [m]
+  double swing = 0.0;    // largest rise of the scale in the last second
+};
+
+OwnClosing closeOwnPair(const StoppingPromise& promise, double at_scale_one, double age, Random& random) {
+  constexpr double kStep = 1e-3, kLength = 20.0;
+  double width = promise.stop_distance + 2.0, speed = 0.0, scale = 1.0, next_scale = 0.0, before = 1.0;
+  std::deque<std::pair<double, double>> heard;
+  std::vector<double> widths;
+  PublishedScales scales;
+  OwnClosing outcome;
+  const int old = static_cast<int>(age / kStep);
+  for (int i = 0; i * kStep < kLength; ++i) {
+    const double now = i * kStep;
+    widths.push_back(width);
+    if (now >= next_scale && i >= old + 10) {
+      const double closing = (widths[i - old - 10] - widths[i - old]) / (10 * kStep);
+      const std::vector<PairDistance> near = {pairAt(widths[i - old], closing)};
+      const ScaleLimits limits = velocityScales(near, ofOneOwnPair(), age, age, scales.obeyed(now, promise), promise);
+      const double told = scales.limitRise(limits.measured, now, promise).scale;
+      scales.add(told, now, promise);
+      heard.push_back({now + uniform(random, 0.0, 1.0) * promise.reaction_time, told});
+      if (now > kLength - 1.0) outcome.swing = std::max(outcome.swing, told - before);
+      before = told;
+      next_scale = now + 0.5 * promise.period;
+    }
+    while (!heard.empty() && heard.front().first <= now) {
+      scale = heard.front().second;
+      heard.pop_front();
+    }
+    const double wanted = scale * at_scale_one;
+    speed = std::clamp(wanted, speed - promise.deceleration * kStep, speed + promise.max_acceleration * kStep);
+    width -= speed * kStep;
+    outcome.least = std::min(outcome.least, width - promise.stop_distance);
+  }
+  return outcome;
+}
+
+TEST(VelocityScale, AnOwnPairThatAProgramClosesComesToRestBeforeItsStopDistance) {
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    StoppingPromise promise;
+    promise.stop_distance = 0.01;
+    promise.max_speed = uniform(random, 0.3, 2.0);
+    promise.reaction_time = uniform(random, 0.0, 0.2);
+    promise.deceleration = uniform(random, 1.0, 6.0);
+    const double share = i % 2 == 0 ? 1.0 : uniform(random, 0.2, 1.0);
+    const OwnClosing outcome = closeOwnPair(promise, share * promise.max_speed, uniform(random, 0.0, 0.15), random);
+    EXPECT_GT(outcome.least, -1e-3 * promise.max_speed) << i;  // a step of the simulation
+    EXPECT_LT(outcome.least, 0.2) << i;                        // it comes near nevertheless
+    EXPECT_LT(outcome.swing, 0.02) << i;                       // and does not flutter
+  }
 }
 
 /// Exact distance of two meshes at their poses, over all pairs of triangles.
@@ -236,8 +381,9 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
       const CycleResult& result = monitor.run(motion, {false, 0});
       ASSERT_EQ(result.verdict, Verdict::kClear);
       const std::chrono::nanoseconds origin(std::llround(1e9 * (now - motion.times.back())));
-      robot.hear(now, velocityScale(distances.update(motion, result, scaleRange(promise), {origin}),
-                                    motion.times.back(), 0.0, promise));
+      const double range = scaleRange(promise, promise.stop_distance);
+      const std::vector<PairDistance>& near = distances.update(motion, result, range, {origin});
+      robot.hear(now, limitOf(near, {}, motion.times.back(), 0.0, promise).scale);
       poses = {X};
       known = now;
     }

@@ -200,6 +200,34 @@ TEST(YamlParameters, LimitsOfTheVelocityScaleNeedItsMaxSpeed) {
             "velocity scale are set");
 }
 
+TEST(YamlParameters, OwnPairsLimitAsMeasuredUnlessTheyPromise) {
+  const auto rule = [](const std::string& own_pairs) {
+    return parseParameters(load("velocity_scale: {max_speed: 1.0" + own_pairs + "}"), "~").proximity.promise->own_pairs;
+  };
+  EXPECT_EQ(rule(""), OwnPairs::kMeasured);
+  EXPECT_EQ(rule(", own_pairs: promise"), OwnPairs::kPromise);
+  EXPECT_NE(errorOf("velocity_scale: {max_speed: 1.0, own_pairs: never}").find("~/velocity_scale/own_pairs"),
+            std::string::npos);
+  EXPECT_NE(errorOf("velocity_scale: {own_pairs: promise}").find("~/velocity_scale/max_speed is missing"),
+            std::string::npos);
+}
+
+TEST(YamlParameters, PairsHaveTheirOwnStopDistance) {
+  const std::vector<PairLimit> limits =
+      parseParameters(load("pairs: [{bodies: ['finger_*', part], stop_distance: 0.0}, {bodies: [a, b]}]"), "~")
+          .proximity.pairs;
+  ASSERT_EQ(limits.size(), 2u);
+  EXPECT_EQ(limits[0].bodies.a, "finger_*");
+  EXPECT_EQ(limits[0].bodies.b, "part");
+  EXPECT_EQ(limits[0].stop_distance, 0.0);
+  EXPECT_FALSE(limits[1].stop_distance);
+  EXPECT_NE(errorOf("pairs: [{bodies: [a], stop_distance: 0.1}]").find("~/pairs[0]/bodies"), std::string::npos);
+  EXPECT_NE(errorOf("pairs: [{stop_distance: 0.1}]").find("~/pairs[0]/bodies"), std::string::npos);
+  EXPECT_NE(errorOf("pairs: [{bodies: [a, b], stop_distance: -0.1}]").find("~/pairs[0]/stop_distance"),
+            std::string::npos);
+  EXPECT_NE(errorOf("pairs: [{bodies: [a, b], stop: 0.1}]").find("~/pairs[0]/stop"), std::string::npos);
+}
+
 TEST(YamlParameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]"),
             "unknown parameter ~/world[0]/xzy, did you mean xyz?");

@@ -6,6 +6,7 @@
 
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/plan_message.h"
+#include "ros/monitor/ways_out_message.h"
 
 namespace sdf_ccd {
 namespace {
@@ -26,8 +27,8 @@ std::set<int> touching(const CycleResult& result) {
 CheckedBag::CheckedBag(BagWriter& bag, MonitorLoop& loop, const SceneDescription& scene,
                        const MonitorParameters& parameters)
     : loop_(loop),
-      proximity_(parameters.proximity),
-      needs_{parameters.proximity.report_distance > 0.0, parameters.proximity.promise.has_value()},
+      proximity_(parameters.proximity, loop),
+      lists_distances_(parameters.proximity.report_distance > 0.0),
       drawer_(loop.fixedFrame(), parameters.markers),
       link_markers_(scene),
       bag_(bag) {}
@@ -50,12 +51,12 @@ void CheckedBag::addTransforms(const RecordedTransforms& transforms) {
 
 void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, contacts);
-  const ProximityMeasure::Measured measured = proximity_.measure(needs_, loop_);
+  const CycleSafety& safety = proximity_.measure(lists_distances_);
   MonitorState state = toMonitorState(loop_, now);
-  state.proximity = measured.proximity;
-  writeLatched(kMonitor + "state", now, state);
-  if (measured.velocity_scale) writeScale(*measured.velocity_scale, now);
-  if (needs_.distances) {
+  writeSafety(safety, state, now);
+  const WaysOut ways = toWaysOut(loop_, proximity_.rules());
+  if (!ways.ways.empty()) bag_.write(kMonitor + "ways_out", now, ways);
+  if (lists_distances_) {
     DistanceArray distances;
     setDistanceArray(loop_, proximity_.parameters().report_distance, distances);
     bag_.write(kMonitor + "distances", now, distances);
@@ -77,16 +78,18 @@ void CheckedBag::addLinks(const ros::Time& now) {
 void CheckedBag::addUnchecked(const std::string& reason, const ros::Time& now) {
   bag_.write(kMonitor + "contacts", now, toUncheckedContacts(loop_, reason));
   MonitorState state = toUncheckedState(loop_.world()->version(), loop_.fixedFrame(), reason, now, &loop_.warnings());
-  state.proximity = proximity_.unchecked();
-  writeLatched(kMonitor + "state", now, state);
-  if (needs_.velocity_scale) writeScale(0.0, now);
+  writeSafety(proximity_.noCycle(), state, now);
   bag_.write(kMonitor + "markers", now, drawer_.clear(reason));
   addLinks(now);
 }
 
-void CheckedBag::writeScale(double scale, const ros::Time& now) {
+/// Completes the state, and writes it.
+void CheckedBag::writeSafety(const CycleSafety& safety, MonitorState& state, const ros::Time& now) {
+  proximity_.setState(safety, state);
+  writeLatched(kMonitor + "state", now, state);
+  if (!safety.velocity_scale) return;
   std_msgs::Float64 message;
-  message.data = scale;
+  message.data = *safety.velocity_scale;
   bag_.write(kMonitor + "velocity_scale", now, message);
 }
 

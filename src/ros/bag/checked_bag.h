@@ -20,6 +20,7 @@ namespace sdf_ccd {
 ///   state            sdf_ccd/MonitorState            the same
 ///   distances        sdf_ccd/DistanceArray           every cycle, if report_distance is set
 ///   velocity_scale   std_msgs/Float64                as state, if velocity_scale/max_speed is set
+///   ways_out         sdf_ccd/WaysOut                 every cycle in which a pair is within its stop distance
 ///   wrenches/<link>  geometry_msgs/WrenchStamped     every cycle in which the link is in contact
 ///   markers          visualization_msgs/MarkerArray  contacts and status
 ///   links            visualization_msgs/MarkerArray  when a link's verdict changes
@@ -50,11 +51,11 @@ class CheckedBag {
   template <class Message>
   void writeLatched(const std::string& topic, const ros::Time& now, const Message& message);
 
-  void writeScale(double scale, const ros::Time& now);
+  void writeSafety(const CycleSafety& safety, MonitorState& state, const ros::Time& now);
 
   MonitorLoop& loop_;
   ProximityMeasure proximity_;
-  ProximityNeeds needs_;
+  bool lists_distances_;
   MarkerDrawer drawer_;
   LinkMarkers link_markers_;
   BagWriter& bag_;

@@ -125,7 +125,7 @@ void CollisionMonitor::setUp() {
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   buildFields();
   loop_ = std::make_unique<MonitorLoop>(first_world_, described_, parameters_);
-  proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity);
+  proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity, *loop_);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_, described_,
                                        parameters_.markers, *proximity_);
   watchdog_ = std::make_unique<CycleWatchdog>(CycleWatchdog::Seconds(parameters_.tf.max_latency),
@@ -235,10 +235,10 @@ void CollisionMonitor::publishCycle() {
   const boost::shared_ptr<MonitorState> state = state_messages_.take();
   const ros::Time sent = ros::Time::now();
   setMonitorState(*loop_, sent, *state);
-  outputs_->publish(state, proximity_->measure(*loop_, *state));
+  outputs_->publish(state, proximity_->measure(*state));
   logContacts();
   listener_->report(health_watch_.health());
-  health_watch_.recordCycle(*loop_, *state, sent);
+  health_watch_.recordCycle(*loop_, *state, proximity_->safety(), sent);
   health_watch_.recordTrigger(trigger_.awaitedFrame());
   diagnostics_->update(health_watch_.health());
 }

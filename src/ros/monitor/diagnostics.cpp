@@ -70,6 +70,10 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::WARN, health_.building);
   } else if (!health_.stall.empty()) {
     status.summary(DiagnosticStatus::ERROR, health_.stall + ": nothing is checked");
+  } else if (health_.safety == Health::kError) {
+    status.summary(DiagnosticStatus::ERROR, health_.finding);
+  } else if (health_.safety == Health::kWarn) {
+    status.summary(DiagnosticStatus::WARN, health_.finding);
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
     status.summary(DiagnosticStatus::WARN, "checking a cycle takes longer than its period, 1/rate");
   } else if (health_.pairs_postponed > 0) {

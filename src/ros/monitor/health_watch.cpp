@@ -4,6 +4,7 @@
 
 #include <ros/console.h>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "monitor/no_pairs.h"
 #include "monitor/over_budget.h"
@@ -17,6 +18,15 @@ namespace {
 constexpr double kLateHold = 3.0;     // time for which late transforms are reported [s]
 constexpr double kWarnDelay = 2.0;    // time before bodies that are not checked are logged [s]
 constexpr double kWarnPeriod = 10.0;  // between such log messages [s]
+
+/// Why the cycle's health is not kOk.
+std::string findingText(const CycleSafety& safety, const MonitorState& state) {
+  if (safety.health == Health::kOk) return {};
+  if (safety.finding == CycleFinding::kOld) return "the newest data of a pair are older than velocity_scale/max_age";
+  if (!state.reason.empty()) return state.reason;
+  return safety.health == Health::kError ? counted(state.pairs_not_checked, "pair") + " could not be checked"
+                                         : counted(state.pairs_delayed, "pair") + " wait for late transforms";
+}
 
 }  // namespace
 
@@ -57,7 +67,8 @@ void HealthWatch::countPairs(const Scene& scene) {
                                                           [](const LeftOut& left_out) { return left_out.isPair(); }));
 }
 
-void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent) {
+void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state, const CycleSafety& safety,
+                              const ros::Time& sent) {
   const ros::WallTime now = ros::WallTime::now();
   const CycleResult& result = loop.result();
   measureRate(now);
@@ -67,6 +78,8 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
     health_.bad_bodies = failedBodies(loop.scene());
     countPairs(loop.scene());
   }
+  health_.safety = safety.health;
+  health_.finding = findingText(safety, state);
   health_.latency = state.latency;
   health_.age = secondsBetween(state.complete_until, sent);
   health_.run_time = state.run_time;
@@ -106,6 +119,8 @@ void HealthWatch::recordStall(const MonitorLoop& loop, const std::string& reason
 }
 
 void HealthWatch::restart() {
+  health_.safety = MonitorHealth().safety;
+  health_.finding = MonitorHealth().finding;
   health_.missing.clear();
   last_cycle_ = ros::WallTime();
 }

@@ -5,6 +5,7 @@
 
 #include <ros/time.h>
 
+#include "monitor/cycle_safety.h"
 #include "ros/monitor/diagnostics.h"
 #include "ros/monitor/monitor_loop.h"
 #include "sdf_ccd/MonitorState.h"
@@ -20,8 +21,9 @@ class HealthWatch {
   /// Records the problems found while the scene was prepared: bodies that cannot be checked, warnings, pairs.
   void recordScene(const Scene& scene, const DescribedScene& described, const MonitorParameters& parameters);
 
-  /// Records the results of the loop's last cycle. @param state  of that cycle.
-  void recordCycle(const MonitorLoop& loop, const MonitorState& state, const ros::Time& sent);
+  /// Records the results of the loop's last cycle. @param state, safety  of that cycle.
+  void recordCycle(const MonitorLoop& loop, const MonitorState& state, const CycleSafety& safety,
+                   const ros::Time& sent);
 
   /// Records the frame that the trigger waits for in vain: CycleTrigger::awaitedFrame(), or empty.
   void recordTrigger(const std::string& awaited_frame);

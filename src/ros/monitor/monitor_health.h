@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "monitor/cycle_safety.h"
 #include "ros/tf/tf_history.h"
 #include "sdf_ccd/query/verdict.h"
 
@@ -11,18 +12,20 @@ namespace sdf_ccd {
 
 /// State of the monitor, as published on /diagnostics.
 struct MonitorHealth {
-  std::string failure;         ///< why the monitor cannot start; empty if it can
-  std::string building;        ///< progress of building the fields; empty when they are built
-  std::string stall;           ///< why no cycles run: no transforms arrive; empty if they run
-  double wanted_rate = 0.0;    ///< [Hz]
-  bool is_timed = false;       ///< cycles run at that rate; else at most that often
-  double rate = 0.0;           ///< of cycles [Hz]
-  double latency = 0.0;        ///< of the last cycle [s]
-  double age = 0.0;            ///< time since all pairs were last known [s]
-  double run_time = 0.0;       ///< of the last check [s]
-  ErrorBound error;            ///< of the pair of the last cycle that has the largest
-  double contact_error = 0.0;  ///< CycleResult::contact_error of the last cycle [m]
-  double max_error = 0.0;      ///< requested [m]; 0: none
+  std::string failure;                           ///< why the monitor cannot start; empty if it can
+  std::string building;                          ///< progress of building the fields; empty when they are built
+  std::string stall;                             ///< why no cycles run: no transforms arrive; empty if they run
+  Health safety = Health::kError;                ///< CycleSafety::health of the last cycle
+  std::string finding = "no cycle has run yet";  ///< why it is not kOk
+  double wanted_rate = 0.0;                      ///< [Hz]
+  bool is_timed = false;                         ///< cycles run at that rate; else at most that often
+  double rate = 0.0;                             ///< of cycles [Hz]
+  double latency = 0.0;                          ///< of the last cycle [s]
+  double age = 0.0;                              ///< time since all pairs were last known [s]
+  double run_time = 0.0;                         ///< of the last check [s]
+  ErrorBound error;                              ///< of the pair of the last cycle that has the largest
+  double contact_error = 0.0;                    ///< CycleResult::contact_error of the last cycle [m]
+  double max_error = 0.0;                        ///< requested [m]; 0: none
   std::uint64_t world_version = 0;
   int pairs = 0;  ///< to be checked in each cycle
   int pairs_left_out = 0;

@@ -64,7 +64,11 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
       monitor_(world_->snapshot->scene, parameters.monitor),
       reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
       contacts_(monitor_.scene(), parameters.contact_join),
-      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)) {
+      distances_(std::make_unique<PairDistances>(world_->snapshot->scene)),
+      traits_finder_(
+          described_.robot, [this](const std::string& frame) { return described_.frames().linkOf(frame); },
+          parameters.proximity.pairs),
+      traits_(traits_finder_.of(world_->scene(), world_->description())) {
   OverlapTexts overlaps = overlapTexts(world_->scene());
   setOverlaps(overlaps);
 }
@@ -92,6 +96,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
   change->overlaps = overlapTexts(scene);
+  change->traits = traits_finder_.of(scene, next->description());
   constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
   CycleMotion& motion = change->cycle.motion;
   motion.X_WB.resize(scene.bodies.size());
@@ -115,6 +120,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   change.distances->take(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);
+  traits_.swap(change.traits);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;
   cycle_.end = change.cycle.end;

@@ -4,6 +4,7 @@
 
 #include "monitor/contact_tracker.h"
 #include "monitor/pair_distances.h"
+#include "robot_monitor/robot_pair_traits.h"
 #include "ros/monitor/reach_guard.h"
 #include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
@@ -26,6 +27,7 @@ struct LoopChange {
   std::unique_ptr<ReachGuard> reach_guard;
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
+  std::vector<PairTraits> traits;  ///< per pair
   TrackedCycle cycle;
   OverlapTexts overlaps;
 };
@@ -92,6 +94,10 @@ class MonitorLoop {
   /// Whether some pair was delayed, and so not measured, and nothing was known of its distance before (PairDistances).
   bool hasUnknownDistance() const { return distances_->hasUnknown(); }
 
+  /// What each pair of the scene can do, and how near it may come.
+  const std::vector<PairTraits>& traits() const { return traits_; }
+  const DescribedScene& robot() const { return described_; }  ///< the robot and its frames
+
   /// To be called for cycles that are not measured, as the known distances of delayed pairs are then outdated.
   void forgetDistances() { distances_->forget(); }
 
@@ -117,6 +123,8 @@ class MonitorLoop {
   const CycleResult* result_ = nullptr;
   ContactTracker contacts_;
   std::unique_ptr<PairDistances> distances_;
+  RobotPairTraits traits_finder_;
+  std::vector<PairTraits> traits_;
   StandingWarnings warnings_;
   OverlapTexts overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested

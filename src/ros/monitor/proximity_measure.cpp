@@ -1,13 +1,16 @@
 #include "ros/monitor/proximity_measure.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "common/infinity.h"
-#include "monitor/velocity_scale.h"
 #include "ros/tf/seconds_between.h"
-#include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
+
+ProximityMeasure::ProximityMeasure(const ProximityParameters& parameters, MonitorLoop& loop)
+    : loop_(loop),
+      parameters_(parameters),
+      promise_text_(parameters.promise ? promiseText(*parameters.promise) : std::string()) {}
 
 void ProximityMeasure::setParameters(const ProximityParameters& parameters) {
   const std::optional<StoppingPromise> promise = parameters_.promise;
@@ -15,41 +18,40 @@ void ProximityMeasure::setParameters(const ProximityParameters& parameters) {
   if (!promise || !parameters.promise) parameters_.promise = promise;
 }
 
-double ProximityMeasure::range(const ProximityNeeds& needs) const {
-  double range = parameters_.thresholds.range();
-  if (needs.distances) range = std::max(range, parameters_.report_distance);
-  if (needs.velocity_scale && parameters_.promise) range = std::max(range, scaleRange(*parameters_.promise));
-  return range;
+SafetyRules ProximityMeasure::rules() const {
+  constexpr double kBeyond = 1.01;  // what is as near as that is ignored
+  SafetyRules rules{parameters_.thresholds, parameters_.promise, loop_.traits()};
+  if (rules.promise)
+    rules.promise->map_distance = kBeyond * std::max(rules.promise->map_distance, loop_.world()->mask_error);
+  return rules;
 }
 
-ProximityMeasure::Measured ProximityMeasure::measure(const ProximityNeeds& needs, MonitorLoop& loop) {
-  Measured measured;
-  std::optional<StoppingPromise> promise;
-  if (needs.velocity_scale && parameters_.promise) {
-    constexpr double kBeyond = 1.01;  // what is as near as that is ignored
-    promise = parameters_.promise;
-    promise->map_distance = kBeyond * std::max(promise->map_distance, loop.world()->mask_error);
-  }
-  const double wanted = std::max(range(needs), promise ? scaleRange(*promise) : 0.0);
-  measured.proximity = MonitorState::NOT_WATCHED;
-  if (!(wanted > 0.0)) {
-    loop.forgetDistances();
-    return measured;
-  }
-  const std::vector<PairDistance>& near = loop.measureDistances(wanted);
-  const CycleResult& result = loop.result();
-  const bool is_known = result.not_checked == 0 && result.verdict != Verdict::kUncertain && !loop.hasUnknownDistance();
-  const bool is_safe = is_known && result.verdict != Verdict::kContact;
-  if (promise) {
-    const ros::Time now = ros::Time::now();  // measuring takes time, too
-    const double age = secondsBetween(loop.cycle().origin, now),
-                 oldest = secondsBetween(loop.cycle().complete_until, now);
-    measured.velocity_scale = is_safe ? velocityScale(near, age, oldest, *promise) : 0.0;
-  }
-  double nearest = is_safe ? kInfinity : 0.0;
-  for (const PairDistance& pair : near) nearest = std::min(nearest, pair.any.width);
-  measured.proximity = static_cast<std::uint8_t>(watch_.update(nearest, parameters_.thresholds));
-  return measured;
+double ProximityMeasure::range(bool lists_distances) const {
+  return std::max(safetyRange(rules()), lists_distances ? parameters_.report_distance : 0.0);
+}
+
+const CycleSafety& ProximityMeasure::measure(bool lists_distances) {
+  static const std::vector<PairDistance> none;
+  const double wanted = range(lists_distances);
+  if (!(wanted > 0.0)) loop_.forgetDistances();
+  const std::vector<PairDistance>& near = wanted > 0.0 ? loop_.measureDistances(wanted) : none;
+  const ros::Time now = ros::Time::now();  // measuring takes time, too
+  const CycleFacts facts{loop_.result(),
+                         near,
+                         wanted > 0.0 && loop_.hasUnknownDistance(),
+                         secondsBetween(loop_.cycle().origin, now),
+                         secondsBetween(loop_.cycle().complete_until, now),
+                         now.toSec()};
+  return safety_ = judgeCycle(facts, rules(), memory_);
+}
+
+void ProximityMeasure::setState(const CycleSafety& safety, MonitorState& state) const {
+  state.proximity = static_cast<std::uint8_t>(safety.proximity);
+  state.velocity_scale = safety.velocity_scale.value_or(std::numeric_limits<double>::quiet_NaN());
+  state.velocity_limit.clear();
+  if (safety.velocity_scale && *safety.velocity_scale < 1.0)
+    state.velocity_limit = limitText(safety, loop_.scene(), rules());
+  state.velocity_promise = promise_text_;
 }
 
 }  // namespace sdf_ccd

@@ -1,23 +1,18 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <string>
 
-#include "monitor/proximity.h"
+#include "monitor/cycle_safety.h"
 #include "ros/monitor/monitor_loop.h"
+#include "sdf_ccd/MonitorState.h"
 
 namespace sdf_ccd {
 
-/// What is to be measured, besides the thresholds of the state's proximity.
-struct ProximityNeeds {
-  bool distances = false;
-  bool velocity_scale = false;  ///< only if the parameters have a StoppingPromise
-};
-
-/// Measures the distances of bodies after each cycle, if they are needed, on the ROS clock.
+/// Measures the distances of bodies after each cycle, if they are needed, and judges the cycle, on the ROS clock.
 class ProximityMeasure {
  public:
-  explicit ProximityMeasure(const ProximityParameters& parameters) : parameters_(parameters) {}
+  /// @param loop  whose last cycle is measured; must outlive this.
+  ProximityMeasure(const ProximityParameters& parameters, MonitorLoop& loop);
 
   const ProximityParameters& parameters() const { return parameters_; }
 
@@ -25,25 +20,39 @@ class ProximityMeasure {
   void setParameters(const ProximityParameters& parameters);
 
   /// Whether something is measured: the cycle must then report the clearances of all pairs.
-  bool isNeeded(const ProximityNeeds& needs) const { return range(needs) > 0.0; }
+  /// @param lists_distances  whether pairs within report_distance are wanted.
+  bool isNeeded(bool lists_distances) const { return range(lists_distances) > 0.0; }
 
-  struct Measured {
-    std::uint8_t proximity = 0;            ///< MonitorState::proximity
-    std::optional<double> velocity_scale;  ///< if it was needed
-  };
+  /// Measures and judges the loop's last cycle; the distances are in the loop.
+  const CycleSafety& measure(bool lists_distances);
 
-  /// Measures the loop's last cycle; the distances are in the loop.
-  Measured measure(const ProximityNeeds& needs, MonitorLoop& loop);
+  /// While no cycle runs.
+  const CycleSafety& noCycle() { return safety_ = judgeNoCycle(rules(), memory_); }
 
-  /// The state's proximity while nothing is checked.
-  std::uint8_t unchecked() { return static_cast<std::uint8_t>(watch_.update(0.0, parameters_.thresholds)); }
+  /// The same, while another thread measures.
+  CycleSafety noCycleMeanwhile() const {
+    SafetyMemory memory;
+    return judgeNoCycle(rules(), memory);
+  }
+
+  /// Of the last cycle, or that there is none.
+  const CycleSafety& safety() const { return safety_; }
+
+  /// Sets what a state tells of it.
+  void setState(const CycleSafety& safety, MonitorState& state) const;
+
+  /// As judged by.
+  SafetyRules rules() const;
 
  private:
   /// Pairs farther apart than this need not be measured [m].
-  double range(const ProximityNeeds& needs) const;
+  double range(bool lists_distances) const;
 
+  MonitorLoop& loop_;
   ProximityParameters parameters_;
-  ProximityWatch watch_;
+  std::string promise_text_;
+  SafetyMemory memory_;
+  CycleSafety safety_;
 };
 
 }  // namespace sdf_ccd

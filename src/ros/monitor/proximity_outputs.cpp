@@ -1,42 +1,68 @@
 #include "ros/monitor/proximity_outputs.h"
 
+#include <ros/console.h>
 #include <std_msgs/Float64.h>
 
+#include "model/name_pair.h"
 #include "ros/monitor/cycle_messages.h"
+#include "ros/monitor/ways_out_message.h"
 
 namespace sdf_ccd {
 
-ProximityOutputs::ProximityOutputs(ros::NodeHandle private_node, const ProximityParameters& parameters)
-    : measure_(parameters) {
+ProximityOutputs::ProximityOutputs(ros::NodeHandle private_node, const ProximityParameters& parameters,
+                                   MonitorLoop& loop)
+    : loop_(loop), measure_(parameters, loop) {
   distances_ = private_node.advertise<DistanceArray>("distances", 100);
-  if (parameters.promise) velocity_scale_ = private_node.advertise<std_msgs::Float64>("velocity_scale", 1);
+  ways_out_ = private_node.advertise<WaysOut>("ways_out", 10);
+  if (!parameters.promise) return;
+  velocity_scale_ = private_node.advertise<std_msgs::Float64>("velocity_scale", 1);
+  ROS_INFO("%s. %s.", rangeText(measure_.rules()).c_str(), promiseText(*parameters.promise).c_str());
 }
 
-boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorLoop& loop, MonitorState& state) {
-  const ProximityNeeds needs = this->needs();
-  const ProximityMeasure::Measured measured = measure_.measure(needs, loop);
-  if (measured.velocity_scale) publishScale(*measured.velocity_scale);
-  state.proximity = measured.proximity;
-  if (!needs.distances) return nullptr;
+boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorState& state) {
+  const bool lists_distances = listsDistances();
+  const CycleSafety& safety = measure_.measure(lists_distances);
+  publishScale(safety);
+  measure_.setState(safety, state);
+  warnOfStandstill();
+  if (ways_out_.getNumSubscribers() > 0) ways_out_.publish(toWaysOut(loop_, measure_.rules()));
+  if (!lists_distances) return nullptr;
   const boost::shared_ptr<DistanceArray> message = messages_.take();
-  setDistanceArray(loop, measure_.parameters().report_distance, *message);
+  setDistanceArray(loop_, measure_.parameters().report_distance, *message);
   return message;
 }
 
 void ProximityOutputs::publishUnchecked(MonitorState& state) {
-  state.proximity = measure_.unchecked();
-  if (needs().velocity_scale) publishScale(0.0);
+  const CycleSafety& safety = measure_.noCycle();
+  publishScale(safety);
+  measure_.setState(safety, state);
 }
 
 void ProximityOutputs::publishStop(MonitorState& state) const {
-  state.proximity = ProximityMeasure(measure_.parameters()).unchecked();
-  if (needs().velocity_scale) publishScale(0.0);
+  const CycleSafety safety = measure_.noCycleMeanwhile();
+  publishScale(safety);
+  measure_.setState(safety, state);
 }
 
-void ProximityOutputs::publishScale(double scale) const {
+void ProximityOutputs::publishScale(const CycleSafety& safety) const {
+  if (!safety.velocity_scale || velocity_scale_.getNumSubscribers() == 0) return;
   std_msgs::Float64 message;
-  message.data = scale;
+  message.data = *safety.velocity_scale;
   velocity_scale_.publish(message);
+}
+
+/// With own_pairs: promise, two links that are near each other for good stop the robot for good.
+void ProximityOutputs::warnOfStandstill() {
+  const CycleSafety& safety = measure_.safety();
+  const bool stands = safety.limiting && safety.velocity_scale == 0.0 && loop_.traits()[safety.limiting->pair].is_own &&
+                      measure_.parameters().promise->own_pairs == OwnPairs::kPromise;
+  std::string text;
+  if (stands)
+    text = "velocity_scale is 0: " + pairName(loop_.scene(), *safety.limiting) +
+           " are closer than velocity_scale/own_pairs: promise lets two links come";
+  if (text == standstill_) return;
+  standstill_ = text;
+  loop_.warnings().set("own_pairs", text);
 }
 
 }  // namespace sdf_ccd

@@ -14,13 +14,13 @@ namespace sdf_ccd {
 namespace {
 
 constexpr double kPreparationTime = 20.0;  // of a body [s]
-constexpr double kLongestCycle = 3600.0;  // transforms have to be kept for that long [s]
+constexpr double kLongestCycle = 3600.0;   // transforms have to be kept for that long [s]
+constexpr std::size_t kMaxRules = 1000;    // each is matched with each pair
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
-  constexpr std::size_t kMax = 1000;  // each is matched with each pair
   std::vector<PairRule> rules;
   for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
-  if (rules.size() > kMax) reader.fail(key, "at most " + std::to_string(kMax) + " pairs");
+  if (rules.size() > kMaxRules) reader.fail(key, "at most " + std::to_string(kMaxRules) + " pairs");
   return rules;
 }
 
@@ -67,6 +67,21 @@ void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
   setMotionErrors(sampling, chords.tolerance, parameters.scene);
 }
 
+/// What holds for single pairs: `pairs: [{bodies: [a, b], stop_distance: …}]`.
+std::vector<PairLimit> readPairLimits(ParameterReader& reader) {
+  std::vector<PairLimit> limits;
+  for (ParameterReader& entry : reader.list("pairs")) {
+    const std::vector<std::string> bodies = entry.texts("bodies");
+    if (bodies.size() != 2) entry.fail("bodies", "two names or patterns of bodies");
+    PairLimit limit{{bodies[0], bodies[1]}};
+    if (entry.has("stop_distance")) limit.stop_distance = entry.notNegative("stop_distance", 0.0);
+    entry.finish();
+    limits.push_back(limit);
+  }
+  if (limits.size() > kMaxRules) reader.fail("pairs", "at most " + std::to_string(kMaxRules) + " entries");
+  return limits;
+}
+
 ProximityParameters readProximity(ParameterReader& reader) {
   ProximityParameters proximity;
   proximity.report_distance = reader.notNegative("report_distance", 0.0);
@@ -77,6 +92,7 @@ ProximityParameters readProximity(ParameterReader& reader) {
   if (thresholds.warning > 0.0 && thresholds.warning < thresholds.stop) {
     reader.fail("warning_distance", "no less than stop_distance");
   }
+  proximity.pairs = readPairLimits(reader);
   ParameterReader scale = reader.group("velocity_scale");
   StoppingPromise promise;
   promise.stop_distance = thresholds.stop;
@@ -87,9 +103,10 @@ ProximityParameters readProximity(ParameterReader& reader) {
   promise.reaction_time = scale.notNegative("reaction_time", promise.reaction_time);
   promise.period = scale.positive("period", promise.period);
   promise.max_age = scale.positive("max_age", promise.max_age);
+  promise.own_pairs = static_cast<OwnPairs>(scale.choice("own_pairs", {"measured", "promise"}, 0));
   scale.finish();
   const auto limits = [](const StoppingPromise& p) {
-    return std::tie(p.max_acceleration, p.deceleration, p.reaction_time, p.period, p.max_age);
+    return std::tie(p.max_acceleration, p.deceleration, p.reaction_time, p.period, p.max_age, p.own_pairs);
   };
   if (!is_wanted && limits(promise) != limits(StoppingPromise()))
     scale.fail("max_speed", "a positive number, as other limits of the velocity scale are set");

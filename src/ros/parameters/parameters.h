@@ -12,6 +12,7 @@
 #include "monitor/proximity.h"
 #include "monitor/velocity_scale.h"
 #include "robot_monitor/overlapping_pairs.h"
+#include "robot_monitor/robot_pair_traits.h"
 #include "ros/messages/markers.h"
 #include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_object.h"
@@ -34,6 +35,7 @@ struct OctomapObject {
 struct ProximityParameters {
   double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
   ProximityThresholds thresholds;
+  std::vector<PairLimit> pairs;            ///< that may come nearer, or less near, than others
   std::optional<StoppingPromise> promise;  ///< of the robot that obeys the velocity scale; none: it is not published
 };
 

@@ -16,6 +16,12 @@ struct RobotFrames {
   std::string operator()(const std::string& link) const { return withoutLeadingSlash(prefix + link); }
   std::string operator()(int link) const { return (*this)(robot.links()[static_cast<std::size_t>(link)]); }
 
+  /// The link that has the frame, by its index in RobotModel::links(); −1: none.
+  int linkOf(const std::string& frame) const {
+    const std::string found = withoutLeadingSlash(frame), begin = withoutLeadingSlash(prefix);
+    return found.compare(0, begin.size(), begin) == 0 ? robot.find(found.substr(begin.size())) : -1;
+  }
+
   /// Of all links, in the order of RobotModel::links().
   std::vector<std::string> all() const {
     std::vector<std::string> frames;

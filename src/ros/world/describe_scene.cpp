@@ -107,6 +107,9 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   }
   const std::vector<AllowedPair> proved = provedPairs(described.scene);
   applyRules(parameters.pairs, described.scene, described.warnings);
+  std::vector<PairRule> limited;
+  for (const PairLimit& limit : parameters.proximity.pairs) limited.push_back(limit.bodies);
+  warnOfUnknown("pairs", limited, described.scene, described.warnings);
   for (AllowedPair& pair : described.scene.allowed) {
     // In spite of the SRDF: watched again, like the others.
     if (pair.proved && !isProof(pair.reason) && matchesAny(parameters.pairs.checked, pair.body_a, pair.body_b))
