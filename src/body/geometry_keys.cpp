@@ -40,20 +40,25 @@ std::shared_ptr<const TriangleMesh> sharedMesh(WeakStore<TriangleMesh>& store, c
   return kept == mesh || areIdentical(*kept, *mesh) ? kept : nullptr;
 }
 
-const std::string& GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh>& mesh) {
+std::string GeometryKeys::hashOf(const std::shared_ptr<const TriangleMesh>& mesh) {
   static std::atomic<std::uint64_t> others{0};
-  Known& known = hashes_[mesh.get()];
-  if (known.mesh.lock() == mesh && !known.hash.empty()) return known.hash;
-  known = {mesh, contentHash(*mesh, {})};
-  if (!sharedMesh(meshesInUse(), known.hash, mesh)) known.hash += "/" + std::to_string(++others);
-  return known.hash;
-}
-
-std::string GeometryKeys::keyOf(const GeometryDescription& geometry) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto known = hashes_.find(mesh.get());
+    if (known != hashes_.end() && known->second.mesh.lock() == mesh) return known->second.hash;
+  }
+  std::string hash = contentHash(*mesh, {});
+  if (!sharedMesh(meshesInUse(), hash, mesh)) hash += "/" + std::to_string(++others);
+  const std::lock_guard<std::mutex> lock(mutex_);
   if (hashes_.size() > kHashes) {
     for (auto known = hashes_.begin(); known != hashes_.end();)
       known = known->second.mesh.expired() ? hashes_.erase(known) : std::next(known);
   }
+  hashes_[mesh.get()] = {mesh, hash};
+  return hash;
+}
+
+std::string GeometryKeys::keyOf(const GeometryDescription& geometry) {
   std::string key(1, static_cast<char>('0' + geometry.shape.index()));
   if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
     key += static_cast<char>('0' + primitive->index());

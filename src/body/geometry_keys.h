@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -16,7 +17,7 @@ std::shared_ptr<const TriangleMesh> sharedMesh(WeakStore<TriangleMesh>& store, c
                                                const std::shared_ptr<const TriangleMesh>& mesh);
 
 /// Keys of geometry: equal for equal content, and only then. Meshes are hashed once, as long as they are referenced
-/// elsewhere, and compared with the one in use under the same hash.
+/// elsewhere, and compared with the one in use under the same hash. Thread-safe; nobody waits while a mesh is hashed.
 class GeometryKeys {
  public:
   /// Of a body in its own frame.
@@ -30,9 +31,10 @@ class GeometryKeys {
     std::weak_ptr<const TriangleMesh> mesh;
     std::string hash;
   };
-  const std::string& hashOf(const std::shared_ptr<const TriangleMesh>& mesh);
+  std::string hashOf(const std::shared_ptr<const TriangleMesh>& mesh);
 
-  std::unordered_map<const TriangleMesh*, Known> hashes_;
+  std::mutex mutex_;
+  std::unordered_map<const TriangleMesh*, Known> hashes_;  // guarded by mutex_
 };
 
 /// Replaces meshes by meshes of equal content that are used elsewhere in this process and were passed here too.

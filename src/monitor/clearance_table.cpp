@@ -276,10 +276,12 @@ ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : m
   using Key = std::pair<std::int32_t, std::int32_t>;  // PairBlock::rows_a and group
   std::vector<std::pair<Key, std::size_t>> placed;    // per pair: its block and lane
   std::map<Key, std::size_t> known;                   // blocks
-  for (const auto& [one, other] : blockedSlots(scene, bodies)) {
+  const std::vector<BlockedSlots> blocked = blockedSlots(scene, bodies);
+  for (std::size_t pair = 0; pair < blocked.size(); ++pair) {
+    const auto& [one, other] = blocked[pair];
     const Key key(twistOffset(one), twistGroup(other));
     placed.emplace_back(key, other % kTwistLanes);
-    known.emplace(key, 0);
+    if (!hasFailedBody(scene, scene.pairs[pair])) known.emplace(key, 0);
   }
   for (auto& [key, block] : known) {
     block = blocks_.size();
@@ -287,6 +289,10 @@ ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : m
   }
   pairs_.assign(kTwistLanes * blocks_.size(), -1);
   for (const auto& [key, lane] : placed) {
+    if (hasFailedBody(scene, scene.pairs[slots_.size()])) {
+      slots_.push_back(-1);
+      continue;
+    }
     const std::size_t slot = kTwistLanes * known.at(key) + lane;
     if (pairs_[slot] >= 0) throw std::invalid_argument("clearance table: a pair of bodies occurs twice");
     pairs_[slot] = static_cast<std::int32_t>(slots_.size());
@@ -356,7 +362,8 @@ void ClearanceTable::forget(int pair) {
 
 void ClearanceTable::forget() {
   for (PairBlock& block : blocks_) settle(block);
-  for (const std::int32_t slot : slots_) budget_[static_cast<std::size_t>(slot)] = kUnknown;
+  for (const std::int32_t slot : slots_)
+    if (slot >= 0) budget_[static_cast<std::size_t>(slot)] = kUnknown;
 }
 
 void ClearanceTable::take(const ClearanceTable& other, const std::vector<Moved>& pairs) {

@@ -15,6 +15,11 @@ struct DuePair {
   int pair;
 };
 
+/// Whether a pair cannot be tested because a body of it could not be built.
+inline bool hasFailedBody(const Scene& scene, const PlannedPair& pair) {
+  return !scene.bodies[pair.body_a].failure.empty() || !scene.bodies[pair.body_b].failure.empty();
+}
+
 /// Summary of a scan over the pairs that are not due.
 struct SkippedPairs {
   float error = -1.0F;  ///< upper bound of their error bounds [m]; negative if there are none
@@ -48,6 +53,10 @@ class ClearanceTable {
 
   /// @throws std::invalid_argument if two pairs are of the same bodies.
   ClearanceTable(const Scene& scene, const BodyTwists& bodies);
+
+  /// Whether it holds the pair: not if a body of it could not be built, which is never tested. All else is about pairs
+  /// that it holds.
+  bool holds(int pair) const { return slots_[static_cast<std::size_t>(pair)] >= 0; }
 
   /// @param margin  distance within which a test could find something, without the motion's error [m].
   /// @param error   the pair's error bound, without the motion's error [m].

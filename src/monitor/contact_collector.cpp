@@ -27,6 +27,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
   crosses_ = crosses;
   path_error_ = pair.error.chord + pair.error.root;
   certain_ = {};
+  deepest_ = group_reach_ = 0.0;
   position_error_ = 0.0;
   motion_ = &motion;
   span_ = pair.span;
@@ -48,22 +49,29 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
   };
   X_CF_.assign(1, X_CF(span_.first));
   const std::vector<Chord>& chords = role.path().chords;
+  CancelTicks<> cancel;
   for (std::size_t c = 0; c < chords.size();) {
     const int interval = chords[c].interval;
     const std::size_t waypoint = span_.first + interval;
     const double t0 = motion_->times[waypoint], t1 = motion_->times[waypoint + 1];
     const ScrewMotion screw(X_CF(waypoint), X_CF(waypoint + 1));
-    for (; c < chords.size() && chords[c].interval == interval; ++c)
+    for (; c < chords.size() && chords[c].interval == interval; ++c) {
+      cancel.check();
       X_CF_.push_back(screw.pose(chords[c].t_end == t1 ? 1.0 : (chords[c].t_end - t0) / (t1 - t0)));
+    }
   }
 }
 
-void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings,
+void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const std::vector<BodyData>& bodies,
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
+  CancelTicks<> cancel;
   is_doubtful_ = role.field().inside_is_doubtful;
   position_error_ = std::max(position_error_, role.shell().position_error);
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
+  const GroupedShell shell{role.shell(), role.tree(), bodies[static_cast<std::size_t>(role.motion().p())].sums};
+  const bool groups_points = role.bearsForce() && !shell.sums.empty() && options.stiffness_per == StiffnessPer::kArea &&
+                             options.normal == NormalSource::kField;
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
@@ -87,17 +95,45 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
       if (!have_poses) setFieldPoses(role);
       have_poses = true;
       X_CG_.clear();
-      for (std::size_t i = 0; i <= block.chords.size(); ++i) X_CG_.push_back(X_CF_[first + i] * part.X_BG);
-      const ContactInput input{part.field, role.shell(), block, X_CG_, siblings[p]};
-      listHits(query_, listed_);
+      for (std::size_t i = 0; i <= block.chords.size(); ++i) {
+        cancel.check();
+        X_CG_.push_back(X_CF_[first + i] * part.X_BG);
+      }
+      const ContactInput input{part.field, role.shell(), block, X_CG_,
+                               bodies[static_cast<std::size_t>(role.fieldBody())].siblings[p]};
+      const bool in_groups = groups_points && !part.field.openings();
+      if (in_groups) {
+        groups_.divide(part.field, shell, block, query_, listed_);
+      } else {
+        listHits(query_, listed_);
+      }
       for (std::size_t done = 0; done < listed_.size(); done += kSomeHits) {
         hits_.assign(listed_.begin() + done, listed_.begin() + std::min(done + kSomeHits, listed_.size()));
         integrate(input, options, with_impulse);
         impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
         addHits(input, shell_is_a);
       }
+      if (in_groups && !groups_.groups().empty()) addGroups(input, shell, shell_is_a, weight, options, with_impulse);
     }
   }
+}
+
+/// Adds the points that are deep together: their impulse, and those that show where and how deep they are.
+void ContactCollector::addGroups(const ContactInput& input, const GroupedShell& shell, bool shell_is_a, double weight,
+                                 const ContactOptions& options, bool with_impulse) {
+  if (with_impulse) {
+    const ContactInput centroids{input.field, groups_.shell(), input.path, input.X_CF, input.siblings};
+    integrateContact(centroids, groups_.hits(), options, {true, false}, impulse_);
+    impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;
+  }
+  groups_.findDeep(input.field, shell, input.path, deepest_, hits_);
+  integrateContact(input, hits_, options, {false, needsErrors(input.field)}, impulse_);
+  const std::vector<PointGroups::Group>& groups = groups_.groups();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    impulse_.depths[g].reach = groups[g].reach;
+    group_reach_ = std::max(group_reach_, groups[g].reach);
+  }
+  addHits(input, shell_is_a);
 }
 
 /// Chords [first, first + size) of a path.
@@ -115,6 +151,7 @@ bool ContactCollector::passesThrough(const DistanceField& field, const PairRole&
                                      std::size_t first, std::size_t max_tested) const {
   const std::size_t stride = query_.hits.size() / max_tested + 1;
   for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
+    checkCancelled();
     ShellHit hit = query_.hits[h];
     hit.chord += static_cast<int>(first);
     if (passesThroughMesh(field, path, role.shell().point(hit.point), hit, path_error_)) return true;
@@ -130,7 +167,9 @@ bool ContactCollector::needsErrors(const DistanceField& field) const {
 /// Adds the hits that integrate() has processed.
 void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
   const bool certain = !input.field.openings() && !is_doubtful_;
+  CancelTicks<1024> cancel;
   for (std::size_t h = 0; h < hits_.size(); ++h) {
+    cancel.check();
     const ShellHit& hit = hits_[h];
     const HitDepth& depth = impulse_.depths[h];
     const Chord& chord = input.path.chords[hit.chord];
@@ -146,11 +185,15 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
                 depth.p_F,
                 depth.reach};
     found.contact.p_W = depth.p_C + p_WC_;
+    deepest_ = std::max(deepest_, depth.depth);
     // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
     // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
-    if (certain && needsErrors(input.field) && depth.depth_lower_bound > certain_.depth)
-      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.point(hit.point)};
+    if (certain && needsErrors(input.field) && depth.depth_lower_bound > certain_.depth) {
+      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.point(hit.point), found.contact};
+      certain_.contact.depth = certain_.depth;
+      certain_.contact.depth_error = 0.0;
+    }
     found_.push_back(found);
   }
   joinWhereMany();
@@ -253,8 +296,12 @@ bool ContactCollector::isDeeper(const Found& a, const Found& b) {
 void ContactCollector::sortDeepest(std::size_t count) {
   by_depth_.resize(found_.size());
   std::iota(by_depth_.begin(), by_depth_.end(), 0U);
+  CancelTicks<1024> cancel;
   std::partial_sort(by_depth_.begin(), by_depth_.begin() + std::min(count, by_depth_.size()), by_depth_.end(),
-                    [&](std::uint32_t a, std::uint32_t b) { return isDeeper(found_[a], found_[b]); });
+                    [&](std::uint32_t a, std::uint32_t b) {
+                      cancel.check();
+                      return isDeeper(found_[a], found_[b]);
+                    });
 }
 
 /// Sets the error of a point's depth. @param reach  upper bound of the depth that it stands for [m].
@@ -268,7 +315,9 @@ void ContactCollector::addPeaks(PairResult& result) {
   if (found_.empty()) return;
   if (result.intervals.size() == 1) return result.peaks.push_back(result.deepest);
   peaks_.assign(result.intervals.size(), {});
+  CancelTicks<1024> cancel;
   for (const Found& found : found_) {
+    cancel.check();
     const auto after = std::upper_bound(result.intervals.begin(), result.intervals.end(), found.contact.time,
                                         [](double time, const Interval& interval) { return time < interval.enter; });
     if (after == result.intervals.begin()) continue;
@@ -295,7 +344,7 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
     setError(found, found.reach, result.points.back());
   }
   if (!found_.empty()) {
-    double reach = 0.0;
+    double reach = group_reach_;
     for (const Found& found : found_) reach = std::max(reach, found.reach);
     const Found& deepest = found_[by_depth_.front()];
     result.deepest = deepest.contact;

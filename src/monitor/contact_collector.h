@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/penalty.h"
+#include "contact/point_groups.h"
 #include "pair_role.h"
 
 namespace sdf_ccd {
@@ -17,7 +18,11 @@ namespace sdf_ccd {
 /// precision that moments about the body keep.
 class ContactCollector {
  public:
-  using Siblings = std::vector<std::vector<SiblingField>>;  // per part of a body
+  /// What is known of a body for all of its contacts.
+  struct BodyData {
+    std::vector<std::vector<SiblingField>> siblings;  // per part
+    std::vector<NodeSum> sums;                        // of its shell
+  };
 
   /// @param pair     gives the bodies, the span of the motion, and the error.
   /// @param crosses  whether the surfaces are known to cross.
@@ -26,8 +31,9 @@ class ContactCollector {
   /// Adds the contacts of one role; PairRole::cut() must have been called.
   /// @param shell_is_a  the shell's body is the pair's body A.
   /// @param weight      share of the role's impulse where the other role finds the same contact: roleWeight().
-  void add(PairRole& role, bool shell_is_a, double weight, const Siblings& siblings, const ContactOptions& options,
-           bool with_impulse);
+  /// @param bodies      of the scene.
+  void add(PairRole& role, bool shell_is_a, double weight, const std::vector<BodyData>& bodies,
+           const ContactOptions& options, bool with_impulse);
 
   /// Whether the surfaces are known to cross, from begin() or add().
   bool crosses() const { return crosses_; }
@@ -37,6 +43,7 @@ class ContactCollector {
     double depth = 0.0;  ///< lower bound [m]
     bool is_of_a = false;
     Vector3d p = Vector3d::Zero();  ///< frame of its own body
+    ContactPoint contact;           ///< its depth is the lower bound
   };
   /// The deepest one; its depth is 0 if there is none.
   const CertainPoint& certain() const { return certain_; }
@@ -64,6 +71,8 @@ class ContactCollector {
   bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
                      std::size_t max_tested) const;
   void addHits(const ContactInput& input, bool shell_is_a);
+  void addGroups(const ContactInput& input, const GroupedShell& shell, bool shell_is_a, double weight,
+                 const ContactOptions& options, bool with_impulse);
   bool haveSharedPoint();
   void join();
   void joinWhereMany();
@@ -93,6 +102,7 @@ class ContactCollector {
   std::vector<Isometry3d> X_CG_;         // the same for a part, in one block
   ChordPath block_;
   ShellQueryResult query_;
+  PointGroups groups_;
   std::vector<ShellHit> listed_;                     // hits of a block
   std::vector<ShellHit> hits_;                       // the hits that are integrated together
   std::size_t most_found_ = 0, most_intervals_ = 0;  // sizes at which the results are joined
@@ -102,6 +112,8 @@ class ContactCollector {
   double position_error_ = 0.0;  // the largest of the shells [m]
   bool is_doubtful_ = false;     // the inside of the role's field body is doubtful
   CertainPoint certain_;
+  double deepest_ = 0.0;      // of the points found so far [m]
+  double group_reach_ = 0.0;  // upper bound of the depth of points that were taken together [m]
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;
 };

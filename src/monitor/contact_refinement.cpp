@@ -58,10 +58,10 @@ ContactRefinement::ContactRefinement(const Scene& scene, const PlannedPair& pair
 
 void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
                             PairResult& result) const {
-  result.refined = true;
   if (const std::optional<Interval> touch = surfaces.firstTouch(motion_error, memory.separation))
     setBegin(*touch, surfaces, result);
   findDeepest(bodies, motion_error + surfaces.deviation(), memory, result);
+  result.refined = true;
 }
 
 /// Contact begins where the surfaces first touch, unless a body is inside the other then.

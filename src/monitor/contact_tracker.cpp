@@ -40,7 +40,7 @@ double forceWhileTouching(const ObservedCycle& cycle, const PairResult& pair) {
 
 /// Identity of a body, or of the map that it is a tile of: the name after a letter that tells the two apart, because a
 /// body and a map may share a name.
-std::string keyOf(const Body& body) {
+std::string identityOf(const Body& body) {
   return body.map.empty() ? "b" + body.name : "m" + body.map;
 }
 
@@ -50,7 +50,7 @@ ContactTracker::Groups groupsOf(const Scene& scene) {
   groups.of_pair.reserve(count);
   std::vector<std::string> key_of_body;
   key_of_body.reserve(scene.bodies.size());
-  for (const Body& body : scene.bodies) key_of_body.push_back(keyOf(body));
+  for (const Body& body : scene.bodies) key_of_body.push_back(identityOf(body));
   std::map<std::pair<std::string_view, std::string_view>, int> of_maps;
   for (const PlannedPair& pair : scene.pairs) {
     const auto a = static_cast<std::size_t>(pair.body_a), b = static_cast<std::size_t>(pair.body_b);
@@ -202,8 +202,10 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
   slot.cycle = cycle_;
   contact.error_bound = std::max(contact.error_bound, pair.error.total());
   contact.contact_error = std::max(contact.contact_error, pair.contact_error.total());
-  contact.seen_at_samples |= holdsSample(interval, cycle.samples);
-  contact.max_force = std::max(contact.max_force, forceWhileTouching(cycle, pair));
+  const double proved = pair.deepest.time;
+  contact.seen_at_samples |= holdsSample(isTimed(pair) ? interval : Interval{proved, proved}, cycle.samples);
+  const double force = forceWhileTouching(cycle, pair);
+  if (!(force <= contact.max_force)) contact.max_force = force;  // what is not known in a cycle stays not known
   // If no interval has a proving point, as when surfaces are known to cross, each may be the contact.
   const auto isProvedWithin = [&](const Interval& other) { return isProved(pair, other); };
   const bool is_contact =

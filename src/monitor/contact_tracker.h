@@ -29,7 +29,8 @@ struct TrackedContact {
   Time deepest_origin{0};
   double error_bound = 0.0;      ///< of the verdict, largest of its cycles [m]
   double contact_error = 0.0;    ///< of times and depths, largest of its cycles [m]
-  double max_force = 0.0;        ///< largest mean force of a cycle while it touched [N]; 0 if wrenches are not known
+  double max_force = 0.0;        ///< largest mean force of a cycle while it touched [N]; 0 if wrenches are not wanted,
+                                 ///< NaN if that of a cycle is not known (PairResult::incomplete)
   std::uint32_t cycles = 0;      ///< number of cycles in which it was seen
   bool seen_at_samples = false;  ///< a check of the recorded poses alone would have seen it
 };

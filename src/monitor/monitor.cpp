@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <tbb/task_arena.h>
-
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/seconds_since.h"
@@ -18,16 +16,18 @@
 namespace sdf_ccd {
 namespace {
 
-std::vector<ContactCollector::Siblings> siblingsOf(const Scene& scene) {
-  std::vector<ContactCollector::Siblings> siblings(scene.bodies.size());
+std::vector<ContactCollector::BodyData> bodyDataOf(const Scene& scene) {
+  std::vector<ContactCollector::BodyData> data(scene.bodies.size());
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const std::vector<BodyPart>& parts = scene.bodies[b].parts;
-    siblings[b].resize(parts.size());
+    const Body& body = scene.bodies[b];
+    const std::vector<BodyPart>& parts = body.parts;
+    data[b].sums = nodeSums(body.shell, body.tree);
+    data[b].siblings.resize(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t k = 0; k < parts.size(); ++k)
-        if (k != i) siblings[b][i].push_back({&parts[k].field, parts[k].X_BG.inverse() * parts[i].X_BG, k < i});
+        if (k != i) data[b].siblings[i].push_back({&parts[k].field, parts[k].X_BG.inverse() * parts[i].X_BG, k < i});
   }
-  return siblings;
+  return data;
 }
 
 }  // namespace
@@ -40,19 +40,29 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
                     std::shared_ptr<MonitorMemory> shared_memory)
     : scene(std::move(of_scene)),
       options(with_options),
-      siblings(siblingsOf(*scene)),
+      body_data(bodyDataOf(*scene)),
       bodies(std::make_unique<SweptBodies>(*scene)),
       memory(std::move(shared_memory)) {
   checkers.reserve(scene->pairs.size());
   result.pairs.reserve(scene->pairs.size());
   for (const PlannedPair& pair : scene->pairs) {
-    checkers.emplace_back(*scene, pair, siblings, options);
+    checkers.emplace_back(*scene, pair, body_data, options);
     PairResult& of_pair = result.pairs.emplace_back();
     of_pair.body_a = pair.body_a;
     of_pair.body_b = pair.body_b;
   }
   const std::size_t pairs = checkers.size();
   schedule = std::make_unique<Schedule>(*scene, checkers);
+  is_failed.assign(pairs, 0);
+  for (const int pair : schedule->failed()) {
+    const PlannedPair& planned = scene->pairs[static_cast<std::size_t>(pair)];
+    const std::string& why = scene->bodies[planned.body_a].failure;
+    clear(result.pairs[static_cast<std::size_t>(pair)]);
+    setNotChecked(why.empty() ? scene->bodies[planned.body_b].failure : why,
+                  result.pairs[static_cast<std::size_t>(pair)]);
+    is_failed[static_cast<std::size_t>(pair)] = 1;
+  }
+  result.failed = schedule->failed();
   due_in_cycle.assign(pairs, 0);
   last_due.reserve(pairs);
   queue.reserve(pairs);
@@ -121,7 +131,7 @@ void Monitor::Impl::takeSpans(const CycleMotion& motion) {
   const WaypointSpan whole{0, motion.times.size() - 1};
   const bool all_whole = schedule->isAllWhole();
   if (all_whole && last_waypoint == whole.last) return;
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) result.pairs[i].span = motion.span(i);
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) result.pairs[i].span = is_failed[i] ? whole : motion.span(i);
   last_waypoint = all_whole ? whole.last : 0;
 }
 
@@ -131,7 +141,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   ++cycle;
   for (const DuePair& due : schedule->due()) due_in_cycle[static_cast<std::size_t>(due.pair)] = cycle;
   const auto setQuiet = [&](std::size_t i) {
-    if (due_in_cycle[i] != cycle) setSkipped(errorOf(static_cast<int>(i)), checkers[i].margin(), result.pairs[i]);
+    if (due_in_cycle[i] != cycle && !is_failed[i]) setSkipped(errorOf(static_cast<int>(i)), checkers[i].margin(), result.pairs[i]);
   };
   for (const int pair : last_due) setQuiet(static_cast<std::size_t>(pair));
   for (std::size_t i = 0; i < checkers.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
@@ -140,7 +150,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   for (const DuePair& due : schedule->due()) last_due.push_back(due.pair);
   if (!request.skipped_pairs) return;
   for (std::size_t i = 0; i < checkers.size(); ++i) {
-    if (due_in_cycle[i] == cycle) continue;
+    if (due_in_cycle[i] == cycle || is_failed[i]) continue;
     result.pairs[i].error = errorOf(static_cast<int>(i));
     result.pairs[i].clearance = schedule->clearance(static_cast<int>(i)) - schedule->motionError(static_cast<int>(i));
   }
@@ -158,20 +168,18 @@ void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const C
   checkCancelled();
   const auto i = static_cast<std::size_t>(due.pair);
   checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
+  if (checkers[i].isToComplete()) checkers[i].complete(motion, *bodies, request, pair_memory, result.pairs[i]);
+  if (result.pairs[i].incomplete) checkCancelled();
 }
 
-/// @return false if the verdict was not found until then.
-bool Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion,
-                               const CycleRequest& request, PairMemory& pair_memory) {
-  if (Clock::now() >= until) return false;
-  pair_memory.deadline = until;
-  try {
-    check(due, motion, request, pair_memory);
-  } catch (const Cancelled&) {
-    checkCancelled();
-    return false;
-  }
-  return true;
+/// A few pairs that were clear the last time take less time than handing them to other threads.
+bool Monitor::Impl::isSmall(const std::vector<DuePair>& due) const {
+  constexpr std::size_t kFew = 8;
+  if (due.size() > kFew) return false;
+  const auto near = std::count_if(due.begin(), due.end(), [&](const DuePair& next) {
+    return mayTouch(result.pairs[static_cast<std::size_t>(next.pair)].verdict);
+  });
+  return due.size() == 1 || near <= 1;
 }
 
 void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start) {
@@ -184,12 +192,7 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
     for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);
     memory->giveBack(std::move(taken));
   };
-  // A few pairs that were clear the last time take less time than handing them to other threads.
-  constexpr std::size_t kFew = 8;
-  const auto near = std::count_if(due.begin(), due.end(), [&](const DuePair& next) {
-    return mayTouch(result.pairs[static_cast<std::size_t>(next.pair)].verdict);
-  });
-  if (due.size() == 1 || (due.size() <= kFew && near <= 1)) return checkRange(0, due.size());
+  if (isSmall(due)) return checkRange(0, due.size());
   // Each pair has its own state, so its result does not depend on the thread.
   parallelRanges(std::size_t{0}, due.size(), checkRange);
 }
@@ -213,40 +216,6 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
   schedule->raiseSoon(clearance);
 }
 
-/// Whether the pair's motion is known in this cycle. If not, its checker tells why.
-bool Monitor::Impl::isMotionKnown(const CycleMotion& motion, const DuePair& due) const {
-  const PairResult& pair = result.pairs[static_cast<std::size_t>(due.pair)];
-  const auto isKnown = [&](int body) { return bodies->whyUnknown(motion, body).empty(); };
-  return !pair.span.empty() && isKnown(pair.body_a) && isKnown(pair.body_b);
-}
-
-/// All threads take pairs from one queue, so that the most urgent pairs are done first. The first one takes as long as
-/// it needs, so that each is decided some time. Pairs whose motion is not known need no time: they come last, and have
-/// waited as long as before when it is known again.
-void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
-  queue = schedule->due();
-  const auto unknown =
-      std::partition(queue.begin(), queue.end(), [&](const DuePair& due) { return isMotionKnown(motion, due); });
-  const auto known = static_cast<std::size_t>(unknown - queue.begin());
-  const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
-  std::sort(queue.begin(), unknown, [&](const DuePair& a, const DuePair& b) {
-    if (waitedFor(a) != waitedFor(b)) return waitedFor(a) > waitedFor(b);
-    return a.left != b.left ? a.left < b.left : a.pair < b.pair;
-  });
-  std::atomic<std::size_t> next{0};
-  parallelFor(0, tbb::this_task_arena::max_concurrency(), [&](int) {
-    std::unique_ptr<PairMemory> taken = memory->take();
-    for (std::size_t k = next++; k < queue.size(); k = next++) {
-      const auto i = static_cast<std::size_t>(queue[k].pair);
-      if (!checkUntil(k > 0 ? until : Clock::time_point::max(), queue[k], motion, request, *taken))
-        checkers[i].postpone(motion, *bodies, schedule->leftClearance(queue[k]), *taken, result.pairs[i]);
-      if (k < known) waited[i] = result.pairs[i].postponed ? waited[i] + 1 : 0;
-    }
-    taken->deadline = Clock::time_point::max();
-    memory->giveBack(std::move(taken));
-  });
-}
-
 void Monitor::Impl::summarise(std::size_t end) {
   CycleSummary summary(result, end);
   for (const DuePair& due : schedule->due()) summary.add(due.pair);
@@ -256,6 +225,7 @@ void Monitor::Impl::summarise(std::size_t end) {
     worst.chord += std::max(0.0, schedule->worstError() - worst.total());
   }
   summary.addSkipped(schedule->skippedCount(), worst);
+  summary.addFailed();
   summary.finish();
 }
 

@@ -1,11 +1,19 @@
+#include <chrono>
 #include <stdexcept>
 #include <utility>
 
 #include "monitor_impl.h"
 #include "pair_result.h"
 #include "scene_difference.h"
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
+namespace {
+
+constexpr double kTestTime = 0.1;  // for new pairs in advance [s]: what is left, the next cycle tests
+constexpr std::chrono::milliseconds kLongestTest(200);
+
+}  // namespace
 
 /// The monitor of the next scene, and what it takes over from the present one.
 struct MonitorChange::Impl {
@@ -15,6 +23,7 @@ struct MonitorChange::Impl {
   Schedule::Kept kept;
 
   void testNewPairs(CycleMotion motion);
+  void testInTime(CycleMotion motion);
 };
 
 MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -28,27 +37,40 @@ void MonitorChange::Impl::testNewPairs(CycleMotion motion) {
   if (kept.new_pairs.empty() || motion.times.empty()) return;
   motion.spans.assign(monitor->result.pairs.size(), WaypointSpan());
   for (const int pair : kept.new_pairs) motion.spans[static_cast<std::size_t>(pair)] = {0, motion.times.size() - 1};
-  const CycleRequest request{false, 0, false, false};
+  CycleRequest request{false, 0, false, false};
+  request.max_time = kTestTime;
   monitor->run(motion, request);
   monitor->last_due = kept.new_pairs;  // not the others, which were delayed
+}
+
+/// Whoever prepares a change may hold up others, and a single pair can take long: then the next cycle has to.
+void MonitorChange::Impl::testInTime(CycleMotion motion) {
+  try {
+    const CancelScope scope(CancelRequest::Clock::now() + kLongestTest);
+    testNewPairs(std::move(motion));
+  } catch (const Cancelled&) {
+    checkCancelled();
+    monitor = std::make_unique<Monitor::Impl>(monitor->scene, monitor->options, monitor->memory);
+  }
 }
 
 std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next, const CycleMotion* likely) const {
   if (!next) throw std::invalid_argument("monitor: no scene");
   auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
-  Impl& monitor = *made;
+  const Scene& scene = *made->scene;
   auto change = std::make_unique<MonitorChange::Impl>(
-      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, *monitor.scene}, {}});
+      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, scene}, {}});
   Schedule::Kept& kept = change->kept;
   kept.bodies = change->difference.bodyRuns();
   kept.before = change->difference.bodiesBefore();
   const std::vector<int>& pairs_now = change->difference.pairsNow();
-  std::vector<char> is_new(monitor.checkers.size(), 1);
+  std::vector<char> is_new(scene.pairs.size(), 1);
   for (const int now : pairs_now)
     if (now >= 0) is_new[static_cast<std::size_t>(now)] = 0;
   for (std::size_t p = 0; p < is_new.size(); ++p)
     if (is_new[p]) kept.new_pairs.push_back(static_cast<int>(p));
-  if (likely) change->testNewPairs(*likely);
+  if (likely) change->testInTime(*likely);
+  Impl& monitor = *change->monitor;
 
   // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
   const std::size_t last = impl_->last_waypoint;
@@ -57,7 +79,7 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
     if (last > 0) result.span = {0, last};
   for (std::size_t p = 0; p < pairs_now.size(); ++p) {
     const int now = pairs_now[p];
-    if (now < 0) continue;
+    if (now < 0 || monitor.is_failed[static_cast<std::size_t>(now)]) continue;
     const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
     setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
     kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));

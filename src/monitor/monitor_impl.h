@@ -25,10 +25,12 @@ struct Monitor::Impl {
   static Clock::time_point endOf(const CycleRequest& request, Clock::time_point start);
   void checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start);
   void checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until);
+  bool isSmall(const std::vector<DuePair>& due) const;
+  std::size_t orderQueue(const CycleMotion& motion);
   bool isMotionKnown(const CycleMotion& motion, const DuePair& due) const;
   void measureSoon(const CycleMotion& motion, Clock::time_point until);
   void check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory);
-  bool checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
+  void checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
                   PairMemory& pair_memory);
   void summarise(std::size_t end);
   ErrorBound errorOf(int pair) const;
@@ -36,16 +38,18 @@ struct Monitor::Impl {
 
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::vector<ContactCollector::Siblings> siblings;
+  std::vector<ContactCollector::BodyData> body_data;
   std::vector<PairChecker> checkers;
   std::unique_ptr<SweptBodies> bodies;
   std::unique_ptr<Schedule> schedule;
   std::shared_ptr<MonitorMemory> memory;
   MotionShape shape;
   CycleResult result;
+  std::vector<char> is_failed;              // per pair: a body of it could not be built; its result never changes
   std::vector<int> last_due;                // pairs
   std::vector<DuePair> queue;               // pairs to test, those that have waited longest first
-  std::vector<std::uint32_t> waited;        // per pair: number of cycles in which it was postponed since its last test
+  std::vector<int> waited;                  // per pair: in how many cycles it was left over since its last test; negative
+                                            // after a search in vain
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle

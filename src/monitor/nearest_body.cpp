@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -24,6 +25,7 @@ class MeshDistances {
  public:
   /// Releases what was prepared of meshes that are gone.
   void dropUnused() {
+    const std::lock_guard<std::mutex> lock(mutex_);
     for (auto known = known_.begin(); known != known_.end();)
       known = known->second.mesh.expired() ? known_.erase(known) : std::next(known);
   }
@@ -31,9 +33,15 @@ class MeshDistances {
   /// @throws std::invalid_argument as MeshDistance().
   std::shared_ptr<const MeshDistance> find(const GeometryDescription& geometry) {
     const MeshPointer& mesh = std::get<MeshPointer>(geometry.shape);
-    Known& known = known_[mesh.get()];
-    if (known.mesh.lock() != mesh) known = {mesh, std::make_shared<const MeshDistance>(geometry)};
-    return known.distance;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      const auto known = known_.find(mesh.get());
+      if (known != known_.end() && known->second.mesh.lock() == mesh) return known->second.distance;
+    }
+    auto made = std::make_shared<const MeshDistance>(geometry);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    known_[mesh.get()] = {mesh, made};
+    return made;
   }
 
  private:
@@ -41,11 +49,16 @@ class MeshDistances {
     std::weak_ptr<const TriangleMesh> mesh;
     std::shared_ptr<const MeshDistance> distance;
   };
-  std::unordered_map<const TriangleMesh*, Known> known_;
+  std::mutex mutex_;
+  std::unordered_map<const TriangleMesh*, Known> known_;  // guarded by mutex_
 };
 
 std::shared_ptr<MeshDistances> makeMeshDistances() {
   return std::make_shared<MeshDistances>();
+}
+
+void dropUnused(MeshDistances& meshes) {
+  meshes.dropUnused();
 }
 
 /// One element of a body: a primitive, a mesh without a field, a field, or a box that contains what is not known.

@@ -22,10 +22,10 @@ void requireFinite(const ErrorBound& error) {
 }  // namespace
 
 PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
-                         const std::vector<ContactCollector::Siblings>& siblings, const MonitorOptions& options)
+                         const std::vector<ContactCollector::BodyData>& body_data, const MonitorOptions& options)
     : scene_(scene),
       pair_(pair),
-      siblings_(siblings),
+      body_data_(body_data),
       options_(options),
       balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
       open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])),
@@ -54,59 +54,13 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
   return true;
 }
 
-void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
-                           PairResult& result) {
-  memory_ = &memory;
-  clear(result);
-  if (!canBeChecked(motion, bodies, result)) return;
-  double apart = kUnknown;
-  if (balls_contain_bodies_) {
-    apart = ballClearance(bodies, result.span);
-    motion_error_ = 0.0;
-    for (const int body : {pair_.body_a, pair_.body_b}) {
-      const BoundingBall& ball = scene_.bodies[body].ball;
-      motion_error_ += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
-    }
-  } else {
-    setRoles(bodies, result.span);
-    apart = roles_.ballClearance();
-  }
-  motion_error_ += givenError(motion, roles_.front().motion());
-  result.error = bound();
-  result.error.chord = motion_error_;
-  if (balls_contain_bodies_ && apart > margin() + motion_error_) {
-    remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
-    setClear(apart, result);
-    result.skipped = outside_ = true;
-    return;
-  }
-  result.verdict = Verdict::kUncertain;
-  result.postponed = true;
-  result.reason = "postponed: the cycle's time was used up";
-  result.error.chord += std::max(0.0, -std::max(clearance, apart));
-  clearance_ = clearance;
-  outside_ = false;
-  inside_.reset();
-}
-
-/// Lower bound of the distance of the bodies' balls over the whole span [m]; if negative, its amount bounds their
-/// overlap. With a constant twist the speed of a ball's centre is constant, so the centre is always within half of its
-/// path from its position at half time.
-double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const {
-  double clearance = std::numeric_limits<double>::infinity();
-  for (std::size_t k = span.first; k < span.last; ++k) {
-    const WorldTwist &a = bodies.twist(pair_.body_a, k), &b = bodies.twist(pair_.body_b, k);
-    const double away = 0.5 * (a.velocity.norm() + b.velocity.norm());
-    clearance = std::min(clearance, (a.center - b.center).norm() - away - a.radius - b.radius);
-  }
-  return clearance;
-}
-
 void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                       PairMemory& memory, PairResult& result) {
   memory_ = &memory;
+  is_to_complete_ = false;
   clear(result);
   if (!canBeChecked(motion, bodies, result)) return;
+  const CancelScope scope(memory.deadline);
   try {
     check(motion, bodies, request, result);
   } catch (const std::exception& error) {
@@ -190,7 +144,12 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   const ErrorBound surface_error = result.error;
   if (surfaces_) {
     if (clearBySurfaces(by_surfaces, result)) return;
-    if (by_surfaces.crossing && !request.wantsContacts()) return setCrossing(*by_surfaces.crossing, result);
+    if (by_surfaces.crossing) {
+      forgetClearance();
+      is_to_complete_ = request.wantsContacts();
+      if (!is_to_complete_) return setCrossing(*by_surfaces.crossing, result);
+      return setIncomplete(*by_surfaces.crossing, motion, request, result);
+    }
     // Fields tell no more of a half-space than its surface does.
     if (surfaces_->isWithHalfSpace() && !request.wantsContacts()) {
       forgetClearance();
@@ -205,17 +164,12 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     return doubt(result);
   }
 
-  result.error.chord = std::max(result.error.chord, roles_.cut(options_.chords) + motion_error_);
-  requireFinite(result.error);
+  cutMotion(result);
   const double near = result.error.total();
-  const std::optional<ContactPoint>& crossing = by_surfaces.crossing;
-  if (crossing || roles_.mayComeNearer(near)) {
+  if (roles_.mayComeNearer(near)) {
     forgetClearance();
-    findContacts(motion, request, by_surfaces, result);
-    if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
-      refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
-    if (surfaces_) surfaceContacts(result).completePeaks();
-    if (!crossing) doubt(result);
+    describe(motion, bodies, request, by_surfaces, result);
+    doubt(result);
     if (by_surfaces.state == SeparationState::kApart) keepInside(result);
     return setSurfaceError(by_surfaces.open_within, surface_error, result);
   }
@@ -224,6 +178,70 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   doubt(result);
   outside_ = result.verdict == Verdict::kClear;
   setSurfaceError(kInfinity, surface_error, result);
+}
+
+void PairChecker::cutMotion(PairResult& result) {
+  result.error.chord = std::max(result.error.chord, roles_.cut(options_.chords) + motion_error_);
+  requireFinite(result.error);
+}
+
+void PairChecker::complete(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                           PairMemory& memory, PairResult& result) {
+  if (!is_to_complete_) return;
+  is_to_complete_ = false;
+  memory_ = &memory;
+  SurfacePair::Answer known;
+  known.state = inside_ ? SeparationState::kApart : SeparationState::kCrossing;
+  known.crossing = result.deepest;
+  known.crossing->depth_error = 0.0;
+  const ErrorBound surface_error = result.error;
+  clear(result);
+  try {
+    const CancelScope scope(memory.deadline);
+    surfaces_->setMotion(bodies, result.span, memory.bounds);
+    setRoles(bodies, result.span);
+    motion_error_ += givenError(motion, surfaces_->motion());
+    setError(bound_, kRootTolerance * travel_, result);
+    cutMotion(result);
+    describe(motion, bodies, request, known, result);
+    if (inside_) keepInside(result);
+    setSurfaceError(kInfinity, surface_error, result);
+  } catch (const Cancelled&) {
+    result.error = surface_error;
+    setIncomplete(*known.crossing, motion, request, result);
+  } catch (const std::exception& error) {
+    forget();
+    clear(result);
+    setNotChecked(error.what(), result);
+  }
+}
+
+/// Computes the contacts of a pair whose surfaces may meet. If time ends after they are proved, they are incomplete.
+/// @throws Cancelled if it ends before.
+void PairChecker::describe(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                           const SurfacePair::Answer& by_surfaces, PairResult& result) {
+  std::optional<ContactPoint> crossing = by_surfaces.crossing;
+  if (!crossing && open_ && by_surfaces.state != SeparationState::kApart)
+    crossing = crossingAtARecordedTime(scene_, motion, result, motion_error_);
+  bool have_wrench = false;
+  try {
+    findContacts(motion, request, crossing, result);
+    have_wrench = true;
+    if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
+      refinement_->run(bodies, *surfaces_, motion_error_, memory_->refinement, result);
+    if (surfaces_) surfaceContacts(result).completePeaks();
+  } catch (const Cancelled&) {
+    if (have_wrench) {
+      result.incomplete = true;
+      result.reason = "incomplete: the cycle's time was used up before the contact was measured on triangles";
+    } else if (crossing) {
+      setIncomplete(*crossing, motion, request, result);
+    } else if (isDeep(result)) {
+      setIncomplete(memory_->collector.certain().contact, motion, request, result);
+    } else {
+      throw;
+    }
+  }
 }
 
 /// Sets UNCERTAIN if the verdict rests on fields of a body whose inside is doubtful.
@@ -260,7 +278,6 @@ SurfaceContacts PairChecker::surfaceContacts(PairResult& result) {
 
 /// Sets a contact of which only a crossing of the surfaces is known, or that one body is inside the other.
 void PairChecker::setCrossing(const ContactPoint& crossing, PairResult& result) {
-  forgetClearance();
   result.verdict = Verdict::kContact;
   result.intervals.push_back({crossing.enter, crossing.exit});
   result.deepest = crossing;
@@ -284,7 +301,6 @@ void PairChecker::setSurfaceError(double open_within, const ErrorBound& error, P
 
 /// Whether the triangles prove that the bodies stay apart. @param answer  set if not.
 bool PairChecker::clearBySurfaces(SurfacePair::Answer& answer, PairResult& result) {
-  const CancelScope scope(memory_->deadline);
   answer = surfaces_->decide(motion_error_, memory_->separation);
   if (answer.state != SeparationState::kApart) {
     inside_.reset();
@@ -326,15 +342,12 @@ std::optional<double> PairChecker::measure(const CycleMotion& motion, const Swep
   return answer.clearance;
 }
 
-/// @param by_surfaces  what triangles tell, if they decide the pair.
+/// @param crossing  of the surfaces, if one is known.
 void PairChecker::findContacts(const CycleMotion& motion, const CycleRequest& request,
-                               const SurfacePair::Answer& by_surfaces, PairResult& result) {
-  std::optional<ContactPoint> crossing = by_surfaces.crossing;
-  if (!crossing && open_ && by_surfaces.state != SeparationState::kApart)
-    crossing = crossingAtARecordedTime(scene_, motion, result, motion_error_);
+                               const std::optional<ContactPoint>& crossing, PairResult& result) {
   ContactCollector& collector = memory_->collector;
   collector.begin(motion, result, crossing.has_value());
-  roles_.addContacts(siblings_, options_.contact, request.wrenches, collector);
+  roles_.addContacts(body_data_, options_.contact, request.wrenches, collector);
   collector.finish(request, result);
   if (crossing || !result.intervals.empty()) result.contact_error = result.error;
   if (crossing) surfaceContacts(result).add(*crossing);

@@ -20,22 +20,32 @@ struct PairMemory {
   std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
   ContactRefinement::Memory refinement;
-  CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of a verdict by triangles
+  CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of all that is tested
 };
 
 /// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
 class PairChecker {
  public:
-  PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::Siblings>& siblings,
+  PairChecker(const Scene& scene, const PlannedPair& pair, const std::vector<ContactCollector::BodyData>& body_data,
               const MonitorOptions& options);
 
   /// Checks the pair over `result.span`; if that is empty, what is stored stays. Does not throw if a body's poses
   /// cannot be followed: the pair is then NOT_CHECKED.
   /// @param bodies  must have the motion.
+  /// If surfaces are known to cross, and contacts are wanted, the result is incomplete: complete() is to follow.
   /// @param memory  used by this call alone.
-  /// @throws Cancelled if the triangles give no verdict before PairMemory::deadline; contacts are then not computed.
+  /// @throws Cancelled if there is no verdict before PairMemory::deadline. A contact that is proved by then is one, but
+  /// PairResult::incomplete.
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
+
+  /// Computes what is missing in an incomplete result of run() with the same arguments. Where PairMemory::deadline comes
+  /// first, it stays incomplete.
+  void complete(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
+                PairResult& result);
+
+  /// Whether complete() is to follow run().
+  bool isToComplete() const { return is_to_complete_; }
 
   /// Leaves the pair untested, over a span that is not empty: UNCERTAIN, or CLEAR if the bodies' balls stay apart.
   /// @param clearance  lower bound of the bodies' distance over the whole span [m]; if negative, its amount bounds
@@ -102,6 +112,9 @@ class PairChecker {
   void setClear(double clearance, PairResult& result);
   SurfaceContacts surfaceContacts(PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
+  void setIncomplete(const ContactPoint& proof, const CycleMotion& motion, const CycleRequest& request,
+                     PairResult& result);
+  double greatestDepthOfContact() const;
   void doubt(PairResult& result);
   bool isCertain(const PairResult& result) const;
   bool isDeep(const PairResult& result) const;
@@ -110,12 +123,15 @@ class PairChecker {
   bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
   void setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const;
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
-  void findContacts(const CycleMotion& motion, const CycleRequest& request, const SurfacePair::Answer& by_surfaces,
+  void cutMotion(PairResult& result);
+  void describe(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                const SurfacePair::Answer& by_surfaces, PairResult& result);
+  void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& crossing,
                     PairResult& result);
 
   const Scene& scene_;
   const PlannedPair& pair_;
-  const std::vector<ContactCollector::Siblings>& siblings_;  // per body
+  const std::vector<ContactCollector::BodyData>& body_data_;  // per body
   const MonitorOptions& options_;
   bool balls_contain_bodies_;  // the bodies' balls contain all of them
   bool open_;                  // a point inside some field may be outside its body
@@ -134,6 +150,7 @@ class PairChecker {
   // Of this cycle:
   double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]
   double motion_error_ = 0.0;     // of the given motion, and of computing with its poses [m]
+  bool is_to_complete_ = false;   // complete() is to follow
   PairMemory* memory_ = nullptr;  // during a call
 };
 

@@ -7,7 +7,7 @@ namespace sdf_ccd {
 void clear(PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason.clear();
-  result.skipped = result.postponed = false;
+  result.skipped = result.postponed = result.incomplete = false;
   result.error = result.contact_error = {};
   result.clearance = -1.0;
   result.intervals.clear();
@@ -26,6 +26,10 @@ void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
   result.skipped = true;
   result.error = error;
   result.clearance = clearance;
+}
+
+bool isTimed(const PairResult& pair) {
+  return !pair.incomplete || !pair.on_a_W.force.hasNaN();
 }
 
 bool isWithin(const ContactPoint& point, const Interval& interval) {

@@ -13,6 +13,9 @@ void clear(PairResult& result);
 /// Sets the result of a pair that is clear without a test. @param clearance  lower bound of its distance [m].
 void setSkipped(const ErrorBound& error, double clearance, PairResult& result);
 
+/// Whether the pair's intervals and wrenches are known: they are not if an incomplete contact is only proved.
+bool isTimed(const PairResult& pair);
+
 /// Whether a point is deepest within the interval.
 bool isWithin(const ContactPoint& point, const Interval& interval);
 

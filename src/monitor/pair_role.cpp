@@ -37,7 +37,9 @@ const ChordPath& PairRole::partPath(const BodyPart& part) {
   const Isometry3d X_GB = part.X_BG.inverse();
   ChordPath& part_path = memory_->part_path;
   part_path = memory_->path;
+  CancelTicks<> cancel;
   for (Chord& chord : part_path.chords) {
+    cancel.check();
     chord.X_FP_start = X_GB * chord.X_FP_start;
     chord.X_FP_end = X_GB * chord.X_FP_end;
   }
@@ -64,7 +66,7 @@ double PairRole::pointClearanceAtEnd(double slack) const {
 bool PairRole::isOutsideAtEnd() const {
   const TriangleTree* surface = field_body_->doubtful.get();
   if (!surface) return true;
-  CancelTicks<64> cancel;
+  const CancelPoint cancel;
   const BoundingBall& ball = field_body_->ball;
   for (std::size_t i = 0; i < shell_->size(); ++i) {
     cancel.check();

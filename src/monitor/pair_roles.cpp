@@ -82,13 +82,12 @@ double PairRoles::forceWeight(const PairRole& role) const {
   return role.bearsForce() ? roleWeight(role.shell().covering_radius, finest_spacing_) : 0.0;
 }
 
-void PairRoles::addContacts(const std::vector<ContactCollector::Siblings>& siblings, const ContactOptions& options,
+void PairRoles::addContacts(const std::vector<ContactCollector::BodyData>& bodies, const ContactOptions& options,
                             bool with_impulse, ContactCollector& collector) {
   double all = 0.0;
   for (const PairRole& role : roles_) all += forceWeight(role);
   for (PairRole& role : roles_) {
-    const int field = role.fieldBody();
-    collector.add(role, field == body_b_, forceWeight(role) / all, siblings[field], options,
+    collector.add(role, role.fieldBody() == body_b_, forceWeight(role) / all, bodies, options,
                   with_impulse && role.bearsForce());
   }
 }

@@ -49,8 +49,8 @@ class PairRoles {
   bool isOutsideAtEnd(int body) const;
 
   /// Adds the contacts of all roles; cut() must have been called.
-  /// @param siblings  per body.
-  void addContacts(const std::vector<ContactCollector::Siblings>& siblings, const ContactOptions& options,
+  /// @param bodies  of the scene.
+  void addContacts(const std::vector<ContactCollector::BodyData>& bodies, const ContactOptions& options,
                    bool with_impulse, ContactCollector& collector);
 
  private:

@@ -8,7 +8,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{64} << 20;  // limits of the unused bodies that are kept
+constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{32} << 20;  // limits of the unused bodies that are kept
 
 /// Whether a body that was prepared with these needs also has all that `wanted` requires.
 bool cover(const BodyNeeds& mine, const BodyNeeds& wanted) {
@@ -38,6 +38,16 @@ PreparedBody* PreparedBodies::find(const std::string& key, const BodyNeeds& need
   return found != bodies_.end() && cover(found->second.needs, needs) ? &found->second : nullptr;
 }
 
+const PreparedBody* PreparedBodies::find(const std::string& key) const {
+  const auto found = bodies_.find(key);
+  return found == bodies_.end() ? nullptr : &found->second;
+}
+
+const PreparedBody* PreparedBodies::find(const std::string& key, const BodyNeeds& needs) const {
+  const PreparedBody* const found = find(key);
+  return found && cover(found->needs, needs) ? found : nullptr;
+}
+
 PreparedBody& PreparedBodies::make(const std::string& key, const BodyDescription& description, const BodyNeeds& needs,
                                    const BodyOptions& options, MeshPool& pool) {
   const auto known = bodies_.find(key);
@@ -52,6 +62,15 @@ PreparedBody& PreparedBodies::add(const std::string& key, const BodyNeeds& needs
   PreparedBody& prepared = bodies_[key];
   prepared = {needs, std::make_shared<const Body>(body), report, prepared.used};
   return prepared;
+}
+
+PreparedBody& PreparedBodies::add(const std::string& key, const PreparedBody& body) {
+  return bodies_[key] = body;
+}
+
+void PreparedBodies::merge(const PreparedBodies& others) {
+  for (const auto& [key, body] : others.bodies_)
+    if (!find(key, body.needs)) add(key, body);
 }
 
 void PreparedBodies::dropUnused(std::uint64_t version) {

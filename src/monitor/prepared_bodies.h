@@ -20,11 +20,15 @@ struct PreparedBody {
   std::uint64_t used = 0;  ///< version of the world that last used it
 };
 
-/// Prepared bodies by the key of their geometry. The most recent of those no longer used are kept.
+/// Prepared bodies by the key of their geometry.
 class PreparedBodies {
  public:
   /// Null if there is none that has all of `needs`.
   PreparedBody* find(const std::string& key, const BodyNeeds& needs);
+  const PreparedBody* find(const std::string& key, const BodyNeeds& needs) const;
+
+  /// Null if there is none, whatever it has.
+  const PreparedBody* find(const std::string& key) const;
 
   /// Prepares a body with `needs` and those of an existing body of the same geometry, which it replaces.
   /// @throws std::invalid_argument with the body's name if it cannot be made.
@@ -33,6 +37,10 @@ class PreparedBodies {
 
   /// Adds a body that is prepared already.
   PreparedBody& add(const std::string& key, const BodyNeeds& needs, const Body& body, const BodyReport& report);
+  PreparedBody& add(const std::string& key, const PreparedBody& body);
+
+  /// Adds those of the others that have more than the present ones.
+  void merge(const PreparedBodies& others);
 
   /// Removes bodies last used before that version, except the most recent ones.
   void dropUnused(std::uint64_t version);

@@ -10,9 +10,14 @@ Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
       table_(scene, bodies_),
       is_paired_(scene.bodies.size(), 0),
       is_whole_(scene.bodies.size(), 0) {
-  for (std::size_t i = 0; i < checkers.size(); ++i)
+  for (std::size_t i = 0; i < checkers.size(); ++i) {
+    if (!table_.holds(static_cast<int>(i))) {
+      failed_.push_back(static_cast<int>(i));
+      continue;
+    }
     table_.setMargin(static_cast<int>(i), checkers[i].margin(), checkers[i].bound().total(),
                      checkers[i].isMeasurable());
+  }
   due_.reserve(checkers.size());
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) is_paired_[static_cast<std::size_t>(body)] = 1;
@@ -26,13 +31,14 @@ bool Schedule::isWhole(const CycleMotion& motion, std::size_t pair) const {
 void Schedule::findWhole(const CycleMotion& motion) {
   const std::size_t pairs = scene_.pairs.size();
   bool all = true;
-  for (std::size_t i = 0; i < pairs && !motion.spans.empty(); ++i) all &= isWhole(motion, i);
+  for (std::size_t i = 0; i < pairs && !motion.spans.empty(); ++i)
+    all &= isWhole(motion, i) || !table_.holds(static_cast<int>(i));
   const bool was_all = all_whole_;
   all_whole_ = all;
   if (all && was_all) return;
   std::fill(is_whole_.begin(), is_whole_.end(), 0);
   for (std::size_t i = 0; i < pairs; ++i) {
-    if (!isWhole(motion, i)) continue;
+    if (!isWhole(motion, i) || !table_.holds(static_cast<int>(i))) continue;
     for (const int body : {scene_.pairs[i].body_a, scene_.pairs[i].body_b})
       is_whole_[static_cast<std::size_t>(body)] = 1;
   }
@@ -42,7 +48,7 @@ const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, std::vecto
   findWhole(motion);
   bodies_.begin(motion, is_whole_);
   for (std::size_t i = 0; i < checkers.size() && !all_whole_; ++i) {
-    if (isWhole(motion, i)) continue;
+    if (isWhole(motion, i) || !table_.holds(static_cast<int>(i))) continue;
     handOver(motion, static_cast<int>(i), checkers[i]);
     table_.forget(static_cast<int>(i));
   }
@@ -82,7 +88,7 @@ double Schedule::motionError(int pair) const {
 
 void Schedule::spendDisplacement(const Schedule& other, const Kept& kept) {
   for (const int pair : kept.new_pairs) {
-    if (!table_.isKnown(pair)) continue;
+    if (!table_.holds(pair) || !table_.isKnown(pair)) continue;
     const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
     double displacement = 0.0;
     for (const int body : {planned.body_a, planned.body_b}) {

@@ -14,7 +14,7 @@ namespace sdf_ccd {
 ///
 /// A pair is not due if its clearance at the end of the last cycle exceeds what its bodies can have moved since, its
 /// motion continues bitwise from there, and it is checked over the whole cycle. All other pairs are due, and their
-/// checkers handle delays, jumps and partial cycles pair by pair.
+/// checkers handle delays, jumps and partial cycles pair by pair. Pairs of bodies that could not be built cost nothing.
 class Schedule {
  public:
   /// @param checkers  one per pair of the scene.
@@ -26,7 +26,10 @@ class Schedule {
   /// Whether all pairs are checked over the whole cycle that was processed last.
   bool isAllWhole() const { return all_whole_; }
   const std::vector<DuePair>& due() const { return due_; }
-  int skippedCount() const { return static_cast<int>(scene_.pairs.size() - due_.size()); }
+  int skippedCount() const { return static_cast<int>(scene_.pairs.size() - failed_.size() - due_.size()); }
+
+  /// The pairs of bodies that could not be built: these are never due, and their transforms do not matter.
+  const std::vector<int>& failed() const { return failed_; }
 
   /// The pair with the largest error bound among those that are not due; −1 if all are due.
   int worstSkipped() const { return quiet_.pair; }
@@ -82,6 +85,7 @@ class Schedule {
   BodyTwists bodies_;
   ClearanceTable table_;
   std::vector<DuePair> due_;
+  std::vector<int> failed_;
   SkippedPairs quiet_;
   std::vector<char> is_paired_;  // per body: it is in a pair; swapped with is_whole_ by take()
   std::vector<char> is_whole_;   // per body: a pair of it is checked over the whole cycle

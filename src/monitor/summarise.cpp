@@ -9,7 +9,7 @@ CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(resul
   result.error_bound = result.contact_error = 0.0;
   result.error = {};
   result.not_clear.clear();
-  result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = 0;
+  result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = result.incomplete = 0;
 }
 
 void CycleSummary::take(const ErrorBound& error) {
@@ -31,6 +31,7 @@ void CycleSummary::add(int index) {
     return;
   }
   ++(pair.skipped ? result_.skipped : pair.postponed ? result_.postponed : result_.checked);
+  result_.incomplete += pair.incomplete ? 1 : 0;
   take(pair.error);
   result_.contact_error = std::max(result_.contact_error, pair.contact_error.total());
 }
@@ -42,6 +43,12 @@ void CycleSummary::addSkipped(int count, const ErrorBound& error) {
   take(error);
 }
 
+void CycleSummary::addFailed() {
+  if (result_.failed.empty()) return;
+  worst_.add(Verdict::kNotChecked);
+  result_.not_checked += static_cast<int>(result_.failed.size());
+}
+
 void CycleSummary::finish() {
   std::sort(result_.not_clear.begin(), result_.not_clear.end());
   if (result_.delayed > 0) worst_.add(Verdict::kNotChecked);  // delayed pairs were not checked over some of the time
@@ -49,6 +56,7 @@ void CycleSummary::finish() {
 }
 
 void summarise(CycleResult& result) {
+  result.failed.clear();  // they are among the pairs
   CycleSummary summary(result, std::numeric_limits<std::size_t>::max());
   for (std::size_t pair = 0; pair < result.pairs.size(); ++pair) summary.add(static_cast<int>(pair));
   summary.finish();

@@ -18,6 +18,9 @@ class CycleSummary {
   /// Adds pairs that are clear without a test. @param error  the largest of their error bounds.
   void addSkipped(int count, const ErrorBound& error);
 
+  /// Adds CycleResult::failed.
+  void addFailed();
+
   /// Must be called last.
   void finish();
 

@@ -40,6 +40,7 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
   const auto is_outside = [&](const std::vector<Vector3d>& corners) {
     const std::size_t count = attempt == 0 ? corners.size() : 1;
     for (std::size_t i = 0; i < count; ++i) {
+      checkCancelled();
       const Vector3d& p_I = corners[(attempt + i) % corners.size()];
       const Vector3d p = X_OI * p_I;
       if (isOutsideSolid(outer, p)) return true;
@@ -118,6 +119,7 @@ SurfacePair::Answer SurfacePair::decideNear(double margin, SeparationMemory& mem
 
 Separation SurfacePair::test(bool closed, const TwoBodyMotion& motion, const SeparationOptions& options,
                              SeparationMemory& memory) {
+  checkCancelled();  // a short search does not check
   SeparationWitness& witness = closed ? closed_witness_ : witness_;
   const BodyTriangles& p = *shell_->triangles;
   if (plane_) {
@@ -200,6 +202,7 @@ bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
 /// tell.
 bool SurfacePair::isBelow(const TwoBodyMotion& motion, double start, double end, double margin,
                           SeparationMemory& memory) {
+  checkCancelled();
   const HalfSpace& plane = plane_->half_space;
   const Isometry3d X_start = motion.X_FP(start);
   const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -21,8 +23,6 @@ namespace sdf_ccd {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-using OnBody = std::function<void(const std::string&)>;  // called with the name of each body that is being built
 
 constexpr double kLongTime = 1.0;  // of making a version [s]
 
@@ -50,7 +50,35 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
   return description;
 }
 
+/// The body of each description; null for those that cannot be checked, or are in no pair.
+/// @param get  returns the body of a description, with what plan.needs says. Called again when more is needed.
+template <class Get>
+std::vector<PreparedBody*> bodiesFor(const SceneDescription& description, ScenePlan& plan, const Get& get) {
+  const std::size_t count = description.bodies.size();
+  std::vector<PreparedBody*> prepared(count, nullptr);
+  const auto prepare = [&](std::size_t b) {
+    checkCancelled();
+    if (description.bodies[b].failure.empty() && plan.needs[b].any()) prepared[b] = get(b);
+  };
+  for (std::size_t b = 0; b < count; ++b) prepare(b);
+  for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
+  const auto isOpen = [&](int b) { return prepared[b] && isInsideUncertain(*prepared[b]->body); };
+  const std::vector<bool> surfaces = needSurface(description, plan.pairs, isOpen);
+  for (std::size_t b = 0; b < count; ++b) {
+    if (!surfaces[b] || !prepared[b]) continue;
+    plan.needs[b].surface = true;
+    prepare(b);
+  }
+  return prepared;
+}
+
 }  // namespace
+
+struct WorldEditor::Parts {
+  PreparedBodies bodies;  // all that the version needs
+  int made = 0;           // of them
+  std::vector<std::string> warnings;
+};
 
 struct WorldEditor::Impl {
   /// A body of the last version.
@@ -61,11 +89,10 @@ struct WorldEditor::Impl {
 
   using Shared = std::shared_ptr<const Body>;
 
+  std::vector<std::string> keysOf(const SceneDescription& description);
+  std::optional<PreparedBody> kept(const std::string& key);
   SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan,
                            const std::vector<std::string>& keys);
-  std::vector<PreparedBody*> prepareAll(const SceneDescription& description, ScenePlan& plan,
-                                        const std::vector<std::string>& keys, MeshPool& pool, const OnBody& progress,
-                                        WorldSnapshot& snapshot);
   std::vector<Shared> addBodies(const SceneDescription& description, const std::vector<PreparedBody*>& prepared,
                                 WorldSnapshot& snapshot, Scene& scene);
   std::shared_ptr<const WorldSnapshot> finish(SceneDescription description, const std::vector<Shared>& prepared,
@@ -73,10 +100,10 @@ struct WorldEditor::Impl {
 
   BodyOptions options;
   GeometryKeys keys;
-  PreparedBodies bodies;
+  std::mutex mutex;       // of what follows
+  PreparedBodies bodies;  // of the last version, and some that are no longer used
   std::unordered_map<std::string, Named> named;
-  std::uint64_t last_id = 0;
-  std::shared_ptr<const WorldSnapshot> last;
+  std::uint64_t last_id = 0, last_version = 0;
 };
 
 WorldEditor::WorldEditor(const BodyOptions& options) : impl_(new Impl) {
@@ -84,19 +111,31 @@ WorldEditor::WorldEditor(const BodyOptions& options) : impl_(new Impl) {
 }
 WorldEditor::~WorldEditor() = default;
 
-const std::shared_ptr<const WorldSnapshot>& WorldEditor::last() const {
-  return impl_->last;
+std::vector<std::string> WorldEditor::Impl::keysOf(const SceneDescription& description) {
+  std::vector<std::string> of_bodies;
+  for (const BodyDescription& body : description.bodies) of_bodies.push_back(keys.keyOf(body));
+  return of_bodies;
+}
+
+std::optional<PreparedBody> WorldEditor::Impl::kept(const std::string& key) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  const PreparedBody* const body = bodies.find(key);
+  return body ? std::optional<PreparedBody>(*body) : std::nullopt;
 }
 
 /// The cost of the bodies that are not prepared yet. @throws as requireAffordable().
 SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description, const ScenePlan& plan,
-                                            const std::vector<std::string>& keys) {
+                                            const std::vector<std::string>& keys_of_bodies) {
   SceneDescription missing;
   ScenePlan missing_plan;
-  for (std::size_t b = 0; b < keys.size(); ++b) {
+  for (std::size_t b = 0; b < keys_of_bodies.size(); ++b) {
     const BodyDescription& body = description.bodies[b];
     const BodyNeeds& needs = plan.needs[b];
-    if (!body.failure.empty() || !needs.any() || bodies.find(keys[b], needs)) continue;
+    if (!body.failure.empty() || !needs.any()) continue;
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (bodies.find(keys_of_bodies[b], needs)) continue;
+    }
     const bool has_mesh = std::any_of(body.geometry.begin(), body.geometry.end(), [](const GeometryDescription& part) {
       return !std::holds_alternative<Primitive>(part.shape) && !part.field;
     });
@@ -109,36 +148,6 @@ SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description,
   SceneCost cost = expectedCost(missing, missing_plan, options);
   requireAffordable(cost, options);
   return cost;
-}
-
-/// Finds or makes the bodies; null for those that cannot be checked, or are in no pair.
-std::vector<PreparedBody*> WorldEditor::Impl::prepareAll(const SceneDescription& description, ScenePlan& plan,
-                                                         const std::vector<std::string>& keys, MeshPool& pool,
-                                                         const OnBody& progress, WorldSnapshot& snapshot) {
-  const std::size_t count = description.bodies.size();
-  std::vector<PreparedBody*> prepared(count, nullptr);
-  const auto prepare = [&](std::size_t b) {
-    checkCancelled();
-    const BodyDescription& body = description.bodies[b];
-    if (!body.failure.empty() || !plan.needs[b].any()) return;
-    prepared[b] = bodies.find(keys[b], plan.needs[b]);
-    if (prepared[b]) return;
-    if (progress) progress(body.name);
-    prepared[b] = &bodies.make(keys[b], body, plan.needs[b], options, pool);
-    ++snapshot.prepared;
-    for (const std::string& warning : prepared[b]->report.warnings)
-      snapshot.warnings.push_back(body.name + ": " + warning);
-  };
-  for (std::size_t b = 0; b < count; ++b) prepare(b);
-  for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
-  const auto isOpen = [&](int b) { return prepared[b] && isInsideUncertain(*prepared[b]->body); };
-  const std::vector<bool> surfaces = needSurface(description, plan.pairs, isOpen);
-  for (std::size_t b = 0; b < count; ++b) {
-    if (!surfaces[b] || !prepared[b]) continue;
-    plan.needs[b].surface = true;
-    prepare(b);
-  }
-  return prepared;
 }
 
 /// Adds the bodies, those of the last version where nothing has changed, and their reports. @return as prepared
@@ -181,8 +190,8 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::Impl::finish(SceneDescription 
     now[list[b].name] = {id, list.shared(b), prepared[b]};
   }
   named = std::move(now);
-  last = std::move(snapshot);
-  return last;
+  last_version = snapshot->version;
+  return snapshot;
 }
 
 std::shared_ptr<const WorldSnapshot> WorldEditor::begin(SceneDescription description, const ScenePlan& plan,
@@ -206,20 +215,49 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::begin(SceneDescription descrip
   return impl_->finish(std::move(description), prepared, std::move(scene), std::move(snapshot));
 }
 
-std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription description,
-                                                       const std::function<void(const std::string&)>& progress,
-                                                       const std::function<void(const std::string&)>& announce) {
-  const auto start = Clock::now();
-  auto snapshot = std::make_shared<WorldSnapshot>();
-  snapshot->version = impl_->last ? impl_->last->version + 1 : 1;
+std::shared_ptr<const WorldEditor::Parts> WorldEditor::prepare(
+    const SceneDescription& description, const std::function<void(const std::string&)>& progress,
+    const std::function<void(const std::string&)>& announce) const {
   ScenePlan plan = planScene(description, planOptions(impl_->options));
-  std::vector<std::string> keys;
-  for (const BodyDescription& body : description.bodies) keys.push_back(impl_->keys.keyOf(body));
+  const std::vector<std::string> keys = impl_->keysOf(description);
   const SceneCost cost = impl_->affordableCost(description, plan, keys);
   if (announce && cost.seconds > kLongTime) announce(summary(cost));
-
+  auto parts = std::make_shared<Parts>();
   const auto pool = cost.meshes ? cost.meshes : std::make_shared<MeshPool>(impl_->options);
-  const std::vector<PreparedBody*> prepared = impl_->prepareAll(description, plan, keys, *pool, progress, *snapshot);
+  bodiesFor(description, plan, [&](std::size_t b) {
+    const std::string& key = keys[b];
+    if (PreparedBody* const known = parts->bodies.find(key, plan.needs[b])) return known;
+    if (const std::optional<PreparedBody> kept = impl_->kept(key)) {
+      parts->bodies.add(key, *kept);
+      if (PreparedBody* const known = parts->bodies.find(key, plan.needs[b])) return known;
+    }
+    const BodyDescription& body = description.bodies[b];
+    if (progress) progress(body.name);
+    PreparedBody& made = parts->bodies.make(key, body, plan.needs[b], impl_->options, *pool);
+    ++parts->made;
+    for (const std::string& warning : made.report.warnings) parts->warnings.push_back(body.name + ": " + warning);
+    return &made;
+  });
+  return parts;
+}
+
+std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription description, const Parts& parts) {
+  const auto start = Clock::now();
+  auto snapshot = std::make_shared<WorldSnapshot>();
+  ScenePlan plan = planScene(description, planOptions(impl_->options));
+  const std::vector<std::string> keys = impl_->keysOf(description);
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  snapshot->version = impl_->last_version + 1;
+  snapshot->prepared = parts.made;
+  snapshot->warnings = parts.warnings;
+  impl_->bodies.merge(parts.bodies);
+  bool are_ready = true;
+  const std::vector<PreparedBody*> prepared = bodiesFor(description, plan, [&](std::size_t b) {
+    PreparedBody* const known = impl_->bodies.find(keys[b], plan.needs[b]);
+    are_ready &= known != nullptr;
+    return known;
+  });
+  if (!are_ready) return nullptr;
   Scene scene = plannedScene(description, plan, impl_->options);
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
   if (const std::string warning = warnOfUntestable(scene); !warning.empty()) snapshot->warnings.push_back(warning);
@@ -227,6 +265,11 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   scene.build_seconds = secondsSince(start);
   impl_->bodies.dropUnused(snapshot->version);
   return impl_->finish(std::move(description), bodies, std::move(scene), std::move(snapshot));
+}
+
+std::shared_ptr<const WorldSnapshot> WorldEditor::next(const SceneDescription& description) {
+  for (;;)
+    if (auto made = next(description, *prepare(description))) return made;
 }
 
 }  // namespace sdf_ccd

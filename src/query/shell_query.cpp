@@ -94,7 +94,7 @@ class ShellSearch {
   void take(std::int32_t i, SweptSide side) {
     const SphereTree::Node& node = nodes_[i];
     if (side == SweptSide::kOutside || node.begin == node.end) return;
-    if (side == SweptSide::kInside) return addInside(node.begin, node.end);
+    if (side == SweptSide::kInside) return addInside(node.begin, node.end, i);
     if (node.isLeaf()) {
       work_.pending.push_back({node.begin, node.end});
       // A shell may be larger than the caches.
@@ -117,11 +117,11 @@ class ShellSearch {
     for (; last != first; --last) work_.stack.push_back(static_cast<std::int32_t>(last - nodes_) - 1);
   }
 
-  void addInside(std::int32_t begin, std::int32_t end) {
+  void addInside(std::int32_t begin, std::int32_t end, std::int32_t node = -1) {
     if (options_.any) {
       result_.hits.push_back({begin, index_, {0.0, 1.0}});
     } else {
-      result_.inside.push_back({begin, end, index_});
+      result_.inside.push_back({begin, end, index_, node});
     }
   }
 

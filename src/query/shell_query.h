@@ -26,6 +26,7 @@ struct InsidePoints {
   int begin;
   int end;
   int chord;
+  int node = -1;  ///< of the tree, whose points these are; −1: of none
 };
 
 struct ShellQueryResult {

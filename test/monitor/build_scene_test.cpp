@@ -120,6 +120,42 @@ TEST(BuildScene, OneBodysFailureIsItsOwn) {
   EXPECT_NE(planTable(*scene).find("broken: " + scene->bodies[1].failure), std::string::npos);
 }
 
+/// Neither other pairs' delays, a reset nor another scene makes a pair of it anything else, and it costs no test.
+TEST(BuildScene, PairsOfABodyThatFailedAreNeverDue) {
+  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("broken", meshShape({})), body("b", Primitive(Sphere{0.1}))});
+  Monitor monitor(scene, {});
+  CycleMotion motion = cycle(0.1, {still(translation({0, 0, 0})), {}, still(translation({1, 0, 0}))});
+  const auto expectNotChecked = [&](const CycleMotion& with, int checked, int skipped, int delayed) {
+    const CycleResult& result = monitor.run(with, {});
+    EXPECT_EQ(result.verdict, Verdict::kNotChecked);
+    EXPECT_EQ(result.not_checked, 2);
+    EXPECT_EQ(result.checked, checked);
+    EXPECT_EQ(result.skipped, skipped);
+    EXPECT_EQ(result.delayed, delayed);
+    EXPECT_EQ(result.failed, (std::vector<int>{0, 2}));
+    EXPECT_TRUE(result.not_clear.empty());
+    for (const int pair : result.failed) {
+      EXPECT_EQ(result.pairs[pair].verdict, Verdict::kNotChecked);
+      EXPECT_EQ(result.pairs[pair].reason, scene->bodies[1].failure);
+      EXPECT_FALSE(result.pairs[pair].span.empty());
+      EXPECT_FALSE(result.pairs[pair].skipped);
+    }
+  };
+  expectNotChecked(motion, 1, 0, 0);
+  expectNotChecked(motion, 0, 1, 0);
+  CycleMotion late = motion;
+  late.spans = {{0, 0}, {0, 0}, {0, 0}};
+  expectNotChecked(late, 0, 0, 1);
+  expectNotChecked(motion, 1, 0, 0);
+  CycleRequest brief;
+  brief.skipped_pairs = false;
+  monitor.run(motion, brief);
+  monitor.reset();
+  expectNotChecked(motion, 1, 0, 0);
+  monitor.adopt(*monitor.prepare(scene));
+  expectNotChecked(motion, 0, 1, 0);
+}
+
 TEST(BuildScene, UnionShellStillCoversTheUnion) {
   // A long box through a ball: points deep inside the other part are dropped, and the union's surface stays covered.
   BodyDescription cross = body("cross", Primitive(Sphere{0.1}));

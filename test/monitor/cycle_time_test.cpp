@@ -101,7 +101,7 @@ TEST_F(CycleTime, WhatIsLeftIsUncertainByNoMoreThanItMayOverlap) {
     if (found > 0) {
       ++short_of_time;
       tested += result.checked;  // except if the known clearance turns out to suffice
-      EXPECT_GE(result.verdict, Verdict::kUncertain);
+      EXPECT_TRUE(mayTouch(result.verdict));
     }
     postponed += found;
   }
@@ -267,7 +267,7 @@ TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
 }
 
 /// Two balls of many triangles that roll on each other, hardly apart, and two beads that are tested before them. The
-/// search for the balls' verdict ends with the cycle's time, and is the first one in the next cycle.
+/// search for the balls' verdict ends with the time of each cycle that has too little of it.
 TEST(CycleTimeOfTwo, ALongSearchEndsInTime) {
   const auto scene = build({body("bead", Primitive(Sphere{0.01})), body("other", Primitive(Sphere{0.01})),
                             body("a", meshShape(icosphere(0.2, 5))), body("b", meshShape(icosphere(0.2, 5)))},
@@ -301,7 +301,8 @@ TEST(CycleTimeOfTwo, ALongSearchEndsInTime) {
     EXPECT_TRUE(balls(result).postponed);
     EXPECT_EQ(balls(result).verdict, Verdict::kUncertain);
     EXPECT_GT(balls(result).error.total(), 0.4 - 0.4001);
-    EXPECT_EQ(balls(monitor.run(motion, limited)).verdict, Verdict::kClear);
+    EXPECT_EQ(balls(monitor.run(motion, limited)).verdict, Verdict::kUncertain);  // also if it comes first
+    EXPECT_EQ(balls(monitor.run(motion, request)).verdict, Verdict::kClear);
   }
   EXPECT_LT(cut, 0.5 * whole);
 }

@@ -30,8 +30,8 @@ class ChangingLoopTest : public MonitorLoopTest {
   /// Makes the cycles continue with the present description.
   void change() { loop_->adopt(*loop_->prepare(checked(editor_.next(description_)))); }
 
-  static std::shared_ptr<const CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
-    return std::make_shared<const CheckedWorld>(snapshot, std::vector<UnreachablePair>());
+  static std::shared_ptr<CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
+    return std::make_shared<CheckedWorld>(snapshot, std::vector<UnreachablePair>());
   }
 
   SceneDescription description_;
@@ -81,6 +81,33 @@ TEST_F(ChangingLoopTest, WhatAppearsIsTestedInAdvance) {
     const ContactArray& said = said_[said_.size() - back];
     EXPECT_EQ(said.verdict, ContactArray::CLEAR) << said.reason;
     EXPECT_LT(said.checked, 3u) << said.skipped << " skipped";
+  }
+}
+
+/// Whatever keeps a new map away, the cycle tests the age of the one that it has.
+TEST_F(ChangingLoopTest, AMapThatIsTooOldIsNotChecked) {
+  const auto cycle = [&](int i) {
+    sendFoot(10.0 + i * kPeriod);
+    sendHand(10.0 + i * kPeriod, 0.0);
+    step(10.0 + i * kPeriod);
+  };
+  for (const bool has_tile : {true, false}) {
+    plate().map = has_tile ? "octomap" : "";
+    const std::shared_ptr<CheckedWorld> world = checked(editor_.next(description_));
+    world->map_age = std::make_shared<MapAge>("/map", 1.0, ros::Time(10.0));
+    loop_->adopt(*loop_->prepare(world));
+    int i = has_tile ? 0 : 100;
+    if (!has_tile) world->map_age->set(ros::Time(10.0 + 100 * kPeriod));
+    for (const int end = i + 25; i < end; ++i) cycle(i);
+    EXPECT_EQ(last().verdict, ContactArray::CLEAR) << last().reason;
+    for (const int end = i + 10; i < end; ++i) cycle(i);
+    EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+    ASSERT_FALSE(last().unchecked.empty());
+    EXPECT_EQ(last().unchecked[0].reason, "the last map on /map is older than 1 s (octomap/max_age)");
+    EXPECT_EQ(last().not_checked, has_tile ? 2u : 3u) << "only the tile's pairs, if there is a tile";
+    world->map_age->set(ros::Time(10.0 + i * kPeriod));
+    for (const int end = i + 10; i < end; ++i) cycle(i);
+    EXPECT_EQ(last().verdict, ContactArray::CLEAR) << "the same map was received again";
   }
 }
 

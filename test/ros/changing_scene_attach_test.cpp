@@ -72,7 +72,7 @@ TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   tile.name = "octomap/0_0_0";
   tile.frame = "base";
   tile.is_world = true;
-  scene_->setTiles({tile});
+  scene_->setTiles({tile}, nullptr);
   SceneChange attach = box();
   attach.type = SceneChange::ATTACH;
   attach.link = "tip";

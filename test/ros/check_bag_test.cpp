@@ -81,6 +81,14 @@ TEST_F(CheckBag, PairsThatAreSetAsideAreSaidAtTheEnd) {
   EXPECT_EQ(readText(path("made/summary.txt")), result.out);
 }
 
+/// Results do not depend on the load of the machine, also if a configuration for a running monitor limits its time.
+TEST_F(CheckBag, ALimitOfACyclesTimeChangesNothing) {
+  write("limited.yaml", readText(path("arm.yaml")) + "max_cycle_time: 1.0e-6\n");
+  ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
+  ASSERT_EQ(run(check("arm.bag", "limited", "--config limited.yaml")).exit_code, kDone);
+  EXPECT_EQ(readText(path("made/contacts.csv")), readText(path("limited/contacts.csv")));
+}
+
 TEST_F(CheckBag, HasARowForEveryCycleWithoutAGap) {
   ASSERT_EQ(run(check("arm.bag", "made")).exit_code, kDone);
   std::vector<Row> cycles = table("made/cycles.csv");

@@ -84,6 +84,53 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
   EXPECT_NEAR(wrench.wrench.torque.x, 0.0, 0.02 * kAside * std::abs(force));
 }
 
+TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
+  const auto scene = build({body("hand", Sphere{kRadius}), body("foot", meshShape({})), body("plate", meshShape({}), true)});
+  loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
+  for (int i = 0; i < 4; ++i) {
+    if (i < 3) sendHand(10.0 + i * kPeriod, 0.0);
+    sendFoot(10.0 + i * kPeriod);
+    step(10.0 + i * kPeriod);
+  }
+  ASSERT_GE(said_.size(), 2u);
+  for (const ContactArray& said : said_) {
+    EXPECT_EQ(said.verdict, ContactArray::NOT_CHECKED);
+    EXPECT_EQ(said.not_checked, 3u);
+    EXPECT_TRUE(said.pairs.empty());
+    ASSERT_EQ(said.unchecked.size(), 2u);
+    EXPECT_EQ(said.unchecked[0].body + " " + said.unchecked[1].body, "foot plate");
+    EXPECT_EQ(said.unchecked[0].reason, scene->bodies[1].failure);
+    EXPECT_EQ(said.unchecked[0].pairs, 2u);
+    EXPECT_EQ(said.unchecked[0].since, said.cycle_start);
+    EXPECT_NE(said.reason.find("3 pairs could not be checked, for example hand - foot: "), std::string::npos);
+  }
+  EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.2)).missing.size(), 2u);
+}
+
+TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
+  const auto scene = build({body("hand", meshShape(icosphere(0.2, 4))), body("plate", meshShape(icosphere(0.2, 4)), true)},
+                           fine(0.001));
+  loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
+  CycleRequest request;
+  request.max_time = 1e-3;
+  for (int i = 0; i < 3; ++i) {
+    sendHand(10.0 + i * kPeriod, 0.3 + 0.05 * i);
+    loop_->step(ros::Time(10.0 + i * kPeriod), request);
+  }
+  const ContactArray said = toContactArray(*loop_);
+  ASSERT_EQ(said.pairs.size(), 1u);
+  EXPECT_EQ(said.verdict, ContactArray::CONTACT);
+  EXPECT_EQ(said.incomplete, 1u);
+  EXPECT_TRUE(said.pairs[0].incomplete);
+  EXPECT_NE(said.pairs[0].reason.find("incomplete"), std::string::npos);
+  EXPECT_TRUE(std::isnan(said.pairs[0].wrench_on_a.force.x));
+  EXPECT_GE(said.pairs[0].depth + said.pairs[0].deepest.depth_error, 0.1);
+  EXPECT_TRUE(std::isnan(toWrenchStamped(*loop_, 0).wrench.force.x));
+  const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
+  EXPECT_EQ(state.pairs_incomplete, 1u);
+  EXPECT_TRUE(std::isnan(state.max_force) && std::isnan(state.max_depth));
+}
+
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
   described.scene.bodies.resize(3);

@@ -3,15 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
 namespace {
 
 TEST(WorkTurns, OneMoreCallerThanAllowedIsRefused) {
-  WorkTurns turns(2);
+  WorkTurns turns(2, "calls");
   const WorkTurns::Caller first(turns);
   {
     const WorkTurns::Caller second(turns);
@@ -22,7 +26,7 @@ TEST(WorkTurns, OneMoreCallerThanAllowedIsRefused) {
 
 TEST(WorkTurns, AShortWorkIsDoneBetweenThePiecesOfALongOne) {
   constexpr int kPieces = 200;
-  WorkTurns turns(2);
+  WorkTurns turns(2, "calls");
   std::atomic<int> done{0}, at_once{0}, most{0};
   std::atomic<bool> is_short_done{false};
   const auto piece = [&] {
@@ -41,6 +45,18 @@ TEST(WorkTurns, AShortWorkIsDoneBetweenThePiecesOfALongOne) {
   long_work.join();
   EXPECT_LE(after - before, 3);
   EXPECT_EQ(most, 1);
+}
+
+TEST(WorkTurns, WhoIsCancelledWaitsNoLonger) {
+  WorkTurns turns(2, "calls");
+  auto first = std::make_unique<WorkTurns::Turn>(turns);
+  std::thread waiting([&] {
+    const CancelScope scope(CancelRequest::Clock::now() + std::chrono::milliseconds(50));
+    EXPECT_THROW(WorkTurns::Turn second(turns), Cancelled);
+  });
+  waiting.join();
+  first.reset();
+  EXPECT_NO_THROW(WorkTurns::Turn third(turns)) << "the one that waited has left";
 }
 
 }  // namespace

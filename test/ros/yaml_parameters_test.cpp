@@ -111,6 +111,16 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.max_points, defaults.max_points);
 }
 
+TEST(YamlParameters, ACyclesTimeFollowsTheRateUnlessItIsSet) {
+  const auto limit = [](const std::string& text) { return cycleTimeLimit(parseParameters(load(text), "~")); };
+  EXPECT_DOUBLE_EQ(limit("rate: 100"), 0.008);
+  EXPECT_DOUBLE_EQ(limit("rate: 100\nmax_cycle_time: -1"), 0.008);
+  EXPECT_EQ(limit("max_cycle_time: 0"), 0.0);
+  EXPECT_EQ(limit("max_cycle_time: 0.02"), 0.02);
+  for (const char* bad : {"-0.5", "-2", ".nan", ".inf"})
+    EXPECT_NE(errorOf(std::string("max_cycle_time: ") + bad).find("max_cycle_time"), std::string::npos) << bad;
+}
+
 TEST(YamlParameters, PairsByRule) {
   const MonitorParameters parameters = parseParameters(
       load("allowed_pairs: [[hand, table], [\"finger_*\", part]]\nchecked_pairs: [[a, b]]\noverlapping_pairs: check"),

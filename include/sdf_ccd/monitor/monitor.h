@@ -37,9 +37,10 @@ struct CycleRequest {
   /// was found and without a depth; no field is queried.
   bool contacts = true;
 
-  /// Once this much of the cycle's time is used up [s], no further pair is tested, and a search for a verdict among
-  /// triangles ends; 0: no limit. The first pair of every cycle is tested to its end, and so is a contact that has been
-  /// found. The remaining pairs are PairResult::postponed, and are tested first in the next cycle.
+  /// Once this much of the cycle's time is used up [s], nothing more is tested; 0: no limit. Searches and integrals end
+  /// within a millisecond. Verdicts come first: pairs without one are PairResult::postponed, and contacts that are known
+  /// but not yet computed are PairResult::incomplete. Both come first in the next cycle. A pair whose search ended
+  /// although it came first has all of the time again only after some cycles, so that others have it meanwhile.
   double max_time = 0.0;
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
@@ -67,12 +68,16 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;    ///< why it was not checked; empty if it was
+  std::string reason;    ///< why it was not checked, or is incomplete; else empty
   WaypointSpan span;     ///< the part of the motion that was checked; empty if the pair is delayed
   bool skipped = false;  ///< CLEAR without a test, by the clearance known from an earlier cycle
   /// UNCERTAIN because no time was left to test it: by what is known from earlier cycles, the bodies overlap by no more
   /// than the error.
   bool postponed = false;
+  /// CONTACT, but no time was left to compute it: `reason` tells what is missing. If that is its times, depth and force,
+  /// the only interval is the whole span, during which it touches at `deepest` at least; its depth is up to
+  /// deepest.depth + depth_error, the greatest that the bodies allow; there are no points, and wrenches are NaN.
+  bool incomplete = false;
   ErrorBound error;          ///< of the verdict
   ErrorBound contact_error;  ///< of intervals and depths, which come from fields and shells; zero if there are none
   double clearance = 0.0;    ///< lower bound of the distance at the span's end, the motion's error taken off [m];
@@ -97,6 +102,7 @@ struct PairResult {
 struct CycleResult {
   std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
   std::vector<int> not_clear;              ///< indices of those that are neither CLEAR nor delayed, increasing
+  std::vector<int> failed;                 ///< not in not_clear: NOT_CHECKED in all cycles, as a body was not built
   Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
                                            ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
   double error_bound = 0.0;                ///< largest of the pairs checked [m]
@@ -107,6 +113,7 @@ struct CycleResult {
   int not_checked = 0;
   int delayed = 0;
   int postponed = 0;
+  int incomplete = 0;     ///< of those checked
   double run_time = 0.0;  ///< [s]
 };
 

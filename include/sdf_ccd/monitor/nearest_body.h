@@ -21,10 +21,12 @@ struct NearestBody {
 };
 
 /// Triangles of meshes that have no field, each prepared when it is first needed and kept as long as the mesh is in
-/// use. Several searches may share them. Not thread-safe.
+/// use. Several searches may share them, in several threads.
 class MeshDistances;
 /// None yet.
 std::shared_ptr<MeshDistances> makeMeshDistances();
+/// Frees what was prepared of meshes that are gone; each new search does so too.
+void dropUnused(MeshDistances& meshes);
 
 /// Finds the nearest body to points. A body with a distance field is as far as that says; all others are as far as
 /// their primitives and the triangles of their meshes are, which need no field.

@@ -33,7 +33,8 @@ struct WorldSnapshot {
 /// too: an object that is moved, attached, or put back is not built again. The parts of a body only grow: a link whose
 /// shell was needed once keeps it.
 ///
-/// A monitor switches to a snapshot by Monitor::prepare() and Monitor::adopt(). Not thread-safe: one thread at a time.
+/// A monitor switches to a snapshot by Monitor::prepare() and Monitor::adopt(). Thread-safe: building, which may take
+/// long, is prepare(), and holds up nobody; making a version of what is built is next(), one call at a time.
 class WorldEditor {
  public:
   /// Without a world; see begin().
@@ -45,17 +46,26 @@ class WorldEditor {
   /// @param plan  the plan from which it was built, with the same options.
   std::shared_ptr<const WorldSnapshot> begin(SceneDescription description, const ScenePlan& plan, Scene scene);
 
-  /// Makes the next version. If it throws, the last version is unchanged.
+  /// The bodies of a version that is to be made. They are kept by the versions that use them, not by the editor.
+  struct Parts;
+
+  /// Builds the bodies of a version, as far as the last one does not have them.
   /// @param progress  called with the name of each body that is being built.
   /// @param announce  called before, with a line about the cost, if that is expected to take over a second.
   /// @throws std::invalid_argument if two bodies share a name, or a new or changed one cannot be built (the message
   /// names it); std::length_error if its expected cost exceeds what the options allow; Cancelled.
-  std::shared_ptr<const WorldSnapshot> next(SceneDescription description,
-                                            const std::function<void(const std::string&)>& progress = {},
-                                            const std::function<void(const std::string&)>& announce = {});
+  std::shared_ptr<const Parts> prepare(const SceneDescription& description,
+                                       const std::function<void(const std::string&)>& progress = {},
+                                       const std::function<void(const std::string&)>& announce = {}) const;
 
-  /// The last version; null before the first.
-  const std::shared_ptr<const WorldSnapshot>& last() const;
+  /// Makes the next version from bodies that are ready. If it throws, the last version is unchanged.
+  /// @return null, and the last version is unchanged, if one is not: `parts` were prepared for another description.
+  /// @throws std::invalid_argument if two bodies share a name; Cancelled.
+  std::shared_ptr<const WorldSnapshot> next(SceneDescription description, const Parts& parts);
+
+  /// The same with the bodies of this description.
+  /// @throws also what prepare() does.
+  std::shared_ptr<const WorldSnapshot> next(const SceneDescription& description);
 
  private:
   struct Impl;

@@ -137,7 +137,7 @@ class LowestSearch {
   SeparationMemory& memory_;
   double cut_ = kInfinity;  // boxes higher than this are not opened
   LowestTriangle found_;
-  CancelTicks<1024> cancel_;
+  CancelTicks<256> cancel_;
 };
 
 class PlaneQuery {

@@ -418,7 +418,7 @@ class SeparationQuery {
   int next_plane_ = kLongSearch;   // the number of tests after which it is looked for
   int tests_ = 0, limit_ = 0;
   bool crossed_ = false, open_ = false;
-  CancelTicks<1024> cancel_;
+  CancelTicks<256> cancel_;
   Separation found_;
 };
 

@@ -108,6 +108,7 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
 }
 
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
+  if (!isTimed(pair)) return holdsSample({pair.deepest.time, pair.deepest.time}, cycle.samples);
   return std::any_of(pair.intervals.begin(), pair.intervals.end(),
                      [&](const Interval& interval) { return holdsSample(interval, cycle.samples); });
 }
@@ -117,6 +118,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.body_b = cycle.scene.bodies[pair.body_b].name;
   message.verdict = static_cast<std::uint8_t>(pair.verdict);
   message.reason = pair.reason;
+  message.incomplete = pair.incomplete;
   message.checked_from = timeAfter(cycle.start, cycle.motion.times[pair.span.first]);
   message.checked_until = timeAfter(cycle.start, cycle.motion.times[pair.span.last]);
   message.intervals.resize(pair.intervals.size());

@@ -45,7 +45,8 @@ std::string uncertainPairs(const PairStates& states, const CycleResult& result, 
 std::string headline(const PairStates& states, const CycleResult& result, const CycleContext& cycle) {
   switch (states.verdict()) {
     case Verdict::kContact:
-      return "CONTACT, " + lengthText(depthOf(states, Verdict::kContact)) + " deep";
+      return (result.incomplete > 0 ? "CONTACT, at least " : "CONTACT, ") +
+             lengthText(depthOf(states, Verdict::kContact)) + " deep";
     case Verdict::kUncertain:
       return "UNCERTAIN, within the error bound:\n" + uncertainPairs(states, result, cycle);
     case Verdict::kNotChecked:

@@ -140,13 +140,14 @@ void CollisionMonitor::setUp() {
                                                 [this](const CheckedWorld& world) { publishPlan(world); });
   first_world_.reset();
   if (!parameters_.live_map.topic.empty()) {
-    plan_->limitRate(services_->node(), [this] { publishPlan(*queries_->world()); });
+    plan_->limitRate(
+        services_->node(), [this] { return scene_editor_->world(); }, described_.fixed_frame);
     live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
   }
   reconfiguration_ = std::make_unique<Reconfiguration>(services_->node(), parameters_, wake);
   health_watch_.health().building.clear();
   restart("waiting for transforms");
-  services_->setReady(*queries_, *scene_editor_, described_.fixed_frame);
+  services_->setReady(*queries_, *scene_editor_, described_.fixed_frame, parameters_.requests.reset);
 }
 
 void CollisionMonitor::buildFields() {
@@ -198,7 +199,7 @@ void CollisionMonitor::cycle() {
   listener_->recoverStatic();
   CycleRequest request = outputs_->request(parameters_.max_points);
   request.contacts |= parameters_.log_contacts;
-  request.max_time = parameters_.max_cycle_time;
+  request.max_time = cycleTimeLimit(parameters_);
   request.refine = parameters_.refine;
   const TfTracker::Step step = loop_->step(ros::Time::now(), request);
   if (step == TfTracker::Step::kCycle) return publishCycle();
@@ -223,10 +224,10 @@ bool CollisionMonitor::isSilent() const {
 /// Called by the watchdog's thread while the thread of the cycles works.
 void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
   const std::string reason = "a cycle has been running for " + numberText(elapsed.count()) + " s";
-  NODELET_WARN_THROTTLE(1.0, "Not checked: %s", reason.c_str());
   const boost::shared_ptr<MonitorState> state = uncheckedState(reason);
   proximity_->publishStop(*state);
   state_publisher_.publish(state);
+  NODELET_WARN_THROTTLE(1.0, "Not checked: %s", reason.c_str());  // last: a console that nobody reads may block
 }
 
 void CollisionMonitor::publishCycle() {
@@ -277,9 +278,12 @@ void CollisionMonitor::publishUnchecked(const std::string& reason) {
 
 /// May be called while the thread of the cycles works.
 boost::shared_ptr<MonitorState> CollisionMonitor::uncheckedState(const std::string& reason) const {
-  const std::uint64_t version = queries_ ? queries_->world()->version() : 0;
-  return boost::make_shared<MonitorState>(toUncheckedState(version, described_.fixed_frame, reason, ros::Time::now(),
-                                                           loop_ ? &loop_->warnings() : nullptr));
+  const std::shared_ptr<const CheckedWorld> world = queries_ ? queries_->world() : nullptr;
+  const auto state =
+      boost::make_shared<MonitorState>(toUncheckedState(world ? world->version() : 0, described_.fixed_frame, reason,
+                                                        ros::Time::now(), loop_ ? &loop_->warnings() : nullptr));
+  if (world) state->pairs_allowed_by_requests = static_cast<std::uint32_t>(world->allowed_by_requests);
+  return state;
 }
 
 void CollisionMonitor::restart(const std::string& reason) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "monitor/pair_result.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
 
@@ -58,7 +59,18 @@ void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std
 /// counted, in `unchecked`.
 void setPairs(const MonitorLoop& loop, ContactArray& message) {
   const CycleContext context = contextOf(loop);
-  message.unchecked.clear();
+  // Those that could not be built are the same in all cycles.
+  message.unchecked = loop.unbuilt().bodies;
+  for (UncheckedBody& body : message.unchecked) body.since = loop.cycle().start;
+  const CycleResult& result = loop.result();
+  const auto isUnbuilt = [&](int body) { return !loop.scene().bodies[body].failure.empty(); };
+  const std::vector<std::string>& missing = loop.cycle().motion.missing;
+  const bool misses = std::any_of(missing.begin(), missing.end(), [](const std::string& why) { return !why.empty(); });
+  for (std::size_t i = 0; misses && i < result.failed.size(); ++i) {
+    const PairResult& pair = result.pairs[result.failed[i]];
+    for (const int body : {pair.body_a, pair.body_b})
+      if (!isUnbuilt(body)) addUnchecked(loop, body, loop.cycle().start, message.unchecked);
+  }
   const auto isListed = [&](const PairResult& pair) {
     if (pair.verdict != Verdict::kNotChecked || !isOfUncheckedBody(loop, pair)) return true;
     const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
@@ -83,15 +95,18 @@ void setScalars(const MonitorLoop& loop, MonitorState& message) {
   }
   message.max_depth = message.max_force = 0.0;
   message.min_clearance = std::numeric_limits<double>::infinity();
+  bool is_known = true;
   for (const PairResult& pair : loop.result().pairs) {
     if (pair.span.empty()) continue;
     message.min_clearance =
         std::min(message.min_clearance, pair.verdict == Verdict::kClear ? std::max(0.0, pair.clearance) : 0.0);
     if (pair.intervals.empty()) continue;
+    if (!isTimed(pair)) is_known = false;
     message.max_depth = std::max(message.max_depth, pair.deepest.depth);
     message.max_force = std::max(message.max_force, pair.on_a_W.force.norm());
   }
   if (!std::isfinite(message.min_clearance)) message.min_clearance = 0.0;
+  if (!is_known) message.max_depth = message.max_force = std::numeric_limits<double>::quiet_NaN();
   message.contacts = static_cast<std::uint32_t>(loop.contacts().size());
 }
 
@@ -109,6 +124,7 @@ void setContactArray(const MonitorLoop& loop, ContactArray& message) {
   message.checked = result.checked;
   message.skipped = result.skipped;
   message.postponed = result.postponed;
+  message.incomplete = result.incomplete;
   message.not_checked = result.not_checked;
   message.delayed = result.delayed;
 }
@@ -150,7 +166,8 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   const CycleResult& result = loop.result();
   setCycle(loop, message);
   message.missing = missingBodies(loop);
-  for (const std::string& failed : failedBodies(loop.scene())) message.missing.push_back(failed);
+  const std::vector<std::string>& failed = loop.unbuilt().lines;
+  message.missing.insert(message.missing.end(), failed.begin(), failed.end());
   loop.warnings().copyTo(message.warnings);
   message.latency = secondsBetween(loop.cycle().end, now);
   message.contact_error_bound = result.contact_error;
@@ -158,8 +175,10 @@ void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState
   message.pairs_checked = result.checked;
   message.pairs_skipped = result.skipped;
   message.pairs_postponed = result.postponed;
+  message.pairs_incomplete = result.incomplete;
   message.pairs_not_checked = result.not_checked;
   message.pairs_delayed = result.delayed;
+  message.pairs_allowed_by_requests = static_cast<std::uint32_t>(loop.world()->allowed_by_requests);
 }
 
 MonitorState toMonitorState(const MonitorLoop& loop, const ros::Time& now) {
@@ -223,7 +242,7 @@ geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body) 
   return message;
 }
 
-std::string wrenchTopic(const Body& body) {
+std::string wrenchTopic(const BodyPlace& body) {
   std::string link = body.name;
   std::replace_if(
       link.begin(), link.end(), [](unsigned char c) { return !std::isalnum(c) && c != '_' && c != '/'; }, '_');

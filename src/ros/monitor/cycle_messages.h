@@ -45,6 +45,6 @@ void setWrenchStamped(const MonitorLoop& loop, int body, geometry_msgs::WrenchSt
 geometry_msgs::WrenchStamped toWrenchStamped(const MonitorLoop& loop, int body);
 
 /// Topic below the monitor's name. Characters in the body's name that are not allowed in topics are replaced.
-std::string wrenchTopic(const Body& body);
+std::string wrenchTopic(const BodyPlace& body);
 
 }  // namespace sdf_ccd

@@ -16,6 +16,7 @@ void CycleSnapshot::take(const MonitorLoop& loop) {
   result_.checked = result.checked;
   result_.skipped = result.skipped;
   result_.postponed = result.postponed;
+  result_.incomplete = result.incomplete;
   result_.not_checked = result.not_checked;
   result_.delayed = result.delayed;
   result_.run_time = result.run_time;

@@ -76,9 +76,10 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
     status.summary(DiagnosticStatus::WARN, health_.finding);
   } else if (health_.run_time * health_.wanted_rate > 1.0) {
     status.summary(DiagnosticStatus::WARN, "checking a cycle takes longer than its period, 1/rate");
-  } else if (health_.pairs_postponed > 0) {
-    status.summaryf(DiagnosticStatus::WARN, "%d pairs are postponed, because the cycle exceeded max_cycle_time",
-                    health_.pairs_postponed);
+  } else if (health_.pairs_postponed + health_.pairs_incomplete > 0) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "the cycle's time (max_cycle_time) was used up: %d pairs are postponed, %d contacts incomplete",
+                    health_.pairs_postponed, health_.pairs_incomplete);
   } else if (health_.max_error > 0.0 && health_.error.total() > health_.max_error) {
     status.summary(DiagnosticStatus::WARN, "running, but the error bound exceeds the parameter max_error");
   } else if (!health_.standing.empty()) {

@@ -88,7 +88,8 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
   health_.missing = missingBodies(loop);
   health_.pairs_delayed = result.delayed;
   health_.pairs_postponed = result.postponed;
-  health_.short_cycles += health_.pairs_postponed > 0;
+  health_.pairs_incomplete = result.incomplete;
+  health_.short_cycles += result.postponed + result.incomplete > 0;
   watchStanding(loop.warnings());
   watchLate(loop, now);
   const std::string body = health_.missing.empty() ? "" : uncheckedCause(loop);

@@ -40,18 +40,21 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
   options_.band = 1.1 * (parameters.scene.shell.spacing + parameters.scene.motion_margin);
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue_);
-  const boost::function<void(const octomap_msgs::Octomap::ConstPtr&)> receive =
-      [this](const octomap_msgs::Octomap::ConstPtr& message) {
-        run("A map is not used, and the last one stays", [&] {
-          const ros::Time stamp(message->header.stamp.sec, message->header.stamp.nsec);  // nsec may exceed one second
-          auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), stamp, max_gap_);
-          process(*message, *robot);
-          received_ = ros::Time::now();
-          robot_ = std::move(robot);
-          incomplete_ = unknown_ > 0 ? message : nullptr;
-        });
-      };
-  subscriber_ = own.subscribe<octomap_msgs::Octomap>(parameters_.topic, 1, receive);
+  using Event = ros::MessageEvent<const octomap_msgs::Octomap>;
+  const boost::function<void(const Event&)> receive = [this](const Event& event) {
+    run("A map is not used, and the last one stays", [&] {
+      const octomap_msgs::Octomap::ConstPtr message = event.getConstMessage();
+      const ros::Time stamp(message->header.stamp.sec, message->header.stamp.nsec);  // nsec may exceed one second
+      auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), stamp, max_gap_);
+      process(*message, event.getReceiptTime(), *robot);
+      robot_ = std::move(robot);
+      incomplete_ = unknown_ > 0 ? message : nullptr;
+      incomplete_received_ = event.getReceiptTime();
+    });
+  };
+  ros::SubscribeOptions topic;
+  topic.initByFullCallbackType<const Event&>(parameters_.topic, 1, receive);
+  subscriber_ = own.subscribe(topic);
   if (parameters_.max_age > 0.0) {
     const ros::WallDuration period(std::clamp(0.2 * parameters_.max_age, kMinAgePeriod, kMaxAgePeriod));
     age_timer_ = own.createWallTimer(period, [this](const ros::WallTimerEvent&) {
@@ -84,14 +87,10 @@ void LiveMap::run(const char* what, const std::function<void()>& job) const {
 
 /// Otherwise a map would be trusted forever after its publisher has ended.
 void LiveMap::checkAge() {
-  const ros::Time now = ros::Time::now();
-  if (now < received_) received_ = now;  // time has jumped
-  if (in_scene_ == InScene::kAwaited || secondsBetween(received_, now) <= parameters_.max_age) return;
-  const std::string why = "the last map on " + parameters_.topic + " is older than " + numberText(parameters_.max_age) +
-                          " s (octomap/max_age)";
-  editor_.setMap({awaitedTile(history_.fixedFrame(), why)});
+  if (in_scene_ == InScene::kAwaited || !age_ || !age_->isTooOld(ros::Time::now())) return;
+  editor_.setMap({awaitedTile(history_.fixedFrame(), age_->text())}, nullptr, arena_);
   in_scene_ = InScene::kAwaited;
-  ROS_WARN("%s: the robot is not checked against it", why.c_str());
+  ROS_WARN("%s: the robot is not checked against it", age_->text().c_str());
 }
 
 /// Processes the last map again if more of the robot's poses are known now.
@@ -99,7 +98,7 @@ void LiveMap::updateMasks() {
   if (!incomplete_ || in_scene_ == InScene::kAwaited) return;
   robot_->update(*editor_.world());
   if (robot_->unknown() >= unknown_) return;
-  process(*incomplete_, *robot_);
+  process(*incomplete_, incomplete_received_, *robot_);
   if (unknown_ == 0) incomplete_.reset();
 }
 
@@ -144,7 +143,7 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, RobotInMap& r
   return robotMasks(world, robot.bodies());
 }
 
-void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
+void LiveMap::process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
   const std::string frame = frameOf(message);
@@ -159,7 +158,7 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
   const double read = secondsSince(start);
   if (!map_ || frame != frame_ || message.resolution != resolution_) begin(frame, message.resolution, options);
   VoxelMap::Change change;
-  editor_.arena().run([&] { change = map_->take(grid, masks); });
+  arena_.run([&] { change = map_->take(grid, masks); });
   for (const std::string& name : change.removed) tiles_.erase(name);
   for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
   const double built = secondsSince(start);
@@ -169,8 +168,13 @@ void LiveMap::process(const octomap_msgs::Octomap& message, RobotInMap& robot) {
     std::vector<BodyDescription> tiles;
     tiles.reserve(tiles_.size());
     for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
-    version = editor_.setMap(std::move(tiles));
+    std::shared_ptr<MapAge> age;
+    if (parameters_.max_age > 0.0) age = std::make_shared<MapAge>(parameters_.topic, parameters_.max_age, received);
+    version = editor_.setMap(std::move(tiles), age, arena_);
+    age_ = std::move(age);
     in_scene_ = InScene::kTiles;
+  } else if (age_) {
+    age_->set(received);
   }
   unknown_ = robot.unknown();
   ROS_INFO_THROTTLE(

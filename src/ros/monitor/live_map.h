@@ -20,7 +20,8 @@ namespace sdf_ccd {
 /// A voxel map that is received on a topic, as tiles of the world. Each map replaces the last one; unchanged tiles are
 /// shared. While one map is processed the newest one waits, and others are dropped.
 ///
-/// Before the first map, and while the last one is too old, the robot is NOT_CHECKED against the map.
+/// Before the first map, and while the last one is too old, the robot is NOT_CHECKED against the map. Whoever uses the
+/// map tests its age as well (MapAge): this class may be busy with a map meanwhile.
 ///
 /// Voxels that the robot and the objects attached to it occupy at the map's stamp, according to tf, are ignored. If tf
 /// lags behind the stamp, the map waits for it, up to max_latency; the last map stays until then. A body whose pose at
@@ -34,7 +35,7 @@ namespace sdf_ccd {
 /// Subscribes:
 ///   the parameter octomap/topic  octomap_msgs/Octomap  binary or full, of OcTree or ColorOcTree
 ///
-/// Runs in a thread of its own.
+/// Runs in threads of its own, which wait for no request (SceneEditor::setMap()).
 class LiveMap {
  public:
   /// @param stop  ends the current work when it is set.
@@ -46,7 +47,7 @@ class LiveMap {
   void run(const char* what, const std::function<void()>& job) const;
   void checkAge();
   void updateMasks();
-  void process(const octomap_msgs::Octomap& message, RobotInMap& robot);
+  void process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot);
   void begin(const std::string& frame, double resolution, const VoxelMapOptions& options);
   void markOutdated();
   std::vector<VoxelMask> masksOf(const CheckedWorld& world, RobotInMap& robot) const;
@@ -57,6 +58,7 @@ class LiveMap {
   double max_latency_;  // longest wait for tf [s]
   double max_gap_;      // between transforms [s]
   SceneEditor& editor_;
+  WorkArena arena_;
   const TfHistory& history_;
   const std::atomic<bool>& stop_;
   VoxelMapOptions options_;
@@ -70,10 +72,11 @@ class LiveMap {
     kOther,    // an older map, as setting the present tiles failed
   };
   InScene in_scene_ = InScene::kAwaited;
-  ros::Time received_;                          // when the last map was received
+  std::shared_ptr<MapAge> age_;                 // of the tiles; null before the first map, or if it does not count
   octomap_msgs::Octomap::ConstPtr incomplete_;  // the last map, if some poses at its stamp were not known
-  std::unique_ptr<RobotInMap> robot_;           // in the last map
-  std::size_t unknown_ = 0;                     // RobotInMap::unknown() of the present masks
+  ros::Time incomplete_received_;
+  std::unique_ptr<RobotInMap> robot_;  // in the last map
+  std::size_t unknown_ = 0;            // RobotInMap::unknown() of the present masks
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
   ros::WallTimer age_timer_, masks_timer_;

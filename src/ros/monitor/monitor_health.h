@@ -34,6 +34,7 @@ struct MonitorHealth {
   std::vector<std::string> warnings;    ///< from reading robot and world
   int pairs_delayed = 0;                ///< in the last cycle, because of late transforms
   int pairs_postponed = 0;              ///< in the last cycle, because of max_cycle_time
+  int pairs_incomplete = 0;             ///< likewise: contacts that are only known to be some
   long short_cycles = 0;                ///< number of cycles with such pairs
   std::vector<std::string> standing;    ///< MonitorLoop::warnings()
   std::string trigger_warning;          ///< about a frame of the trigger that has never arrived; empty if there is none

@@ -7,6 +7,7 @@
 
 #include "monitor/scene_difference.h"
 #include "monitor/summarise.h"
+#include "ros/monitor/unchecked.h"
 
 namespace sdf_ccd {
 namespace {
@@ -53,6 +54,23 @@ CycleMotion presentPoses(const TfHistory& history, const std::vector<TrackedBody
 
 }  // namespace
 
+UnbuiltBodies unbuiltBodies(const Scene& scene) {
+  std::vector<std::uint32_t> pairs(scene.bodies.size(), 0);
+  for (const PlannedPair& pair : scene.pairs)
+    for (const int body : {pair.body_a, pair.body_b}) ++pairs[static_cast<std::size_t>(body)];
+  UnbuiltBodies unbuilt;
+  unbuilt.lines = failedBodies(scene);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    if (body.failure.empty() || pairs[b] == 0) continue;
+    UncheckedBody& entry = unbuilt.bodies.emplace_back();
+    entry.body = body.name;
+    entry.reason = body.failure;
+    entry.pairs = pairs[b];
+  }
+  return unbuilt;
+}
+
 MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described,
                          const MonitorParameters& parameters)
     : world_(std::move(world)),
@@ -68,7 +86,8 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
       traits_finder_(
           described_.robot, [this](const std::string& frame) { return described_.frames().linkOf(frame); },
           parameters.proximity.pairs),
-      traits_(traits_finder_.of(world_->scene(), world_->description())) {
+      traits_(traits_finder_.of(world_->scene(), world_->description())),
+      unbuilt_(unbuiltBodies(monitor_.scene())) {
   OverlapTexts overlaps = overlapTexts(world_->scene());
   setOverlaps(overlaps);
 }
@@ -97,6 +116,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
   change->overlaps = overlapTexts(scene);
   change->traits = traits_finder_.of(scene, next->description());
+  change->unbuilt = unbuiltBodies(scene);
   constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
   CycleMotion& motion = change->cycle.motion;
   motion.X_WB.resize(scene.bodies.size());
@@ -121,6 +141,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);
   traits_.swap(change.traits);
+  std::swap(unbuilt_, change.unbuilt);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;
   cycle_.end = change.cycle.end;
@@ -139,6 +160,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
+    addOutdatedMap(*world_, now, cycle_.motion.missing);
     request_ = request;
     run(request);
     trackContacts(request);

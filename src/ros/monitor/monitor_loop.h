@@ -8,6 +8,7 @@
 #include "ros/monitor/reach_guard.h"
 #include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
+#include "sdf_ccd/UncheckedBody.h"
 
 namespace sdf_ccd {
 
@@ -16,6 +17,13 @@ namespace sdf_ccd {
 struct OverlapTexts {
   std::string set_aside, checked;
 };
+
+/// The bodies of a scene that could not be built, with the number of their pairs, none of which is ever checked.
+struct UnbuiltBodies {
+  std::vector<UncheckedBody> bodies;  ///< without the time
+  std::vector<std::string> lines;     ///< "body: reason"
+};
+UnbuiltBodies unbuiltBodies(const Scene& scene);
 
 /// The parts of a loop for another world, made in advance by MonitorLoop::prepare(); after MonitorLoop::adopt(), the
 /// loop's former parts, to be destroyed by a thread that is not time-critical.
@@ -28,6 +36,7 @@ struct LoopChange {
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
   std::vector<PairTraits> traits;  ///< per pair
+  UnbuiltBodies unbuilt;
   TrackedCycle cycle;
   OverlapTexts overlaps;
 };
@@ -80,6 +89,8 @@ class MonitorLoop {
   /// What was requested of the last cycle.
   const CycleRequest& request() const { return request_; }
 
+  const UnbuiltBodies& unbuilt() const { return unbuilt_; }
+
   /// The contacts over time, if cycles are requested with contacts (CycleRequest::contacts); else there are none. kJump
   /// and reset() end all of them.
   const ContactTracker& contacts() const { return contacts_; }
@@ -125,6 +136,7 @@ class MonitorLoop {
   std::unique_ptr<PairDistances> distances_;
   RobotPairTraits traits_finder_;
   std::vector<PairTraits> traits_;
+  UnbuiltBodies unbuilt_;
   StandingWarnings warnings_;
   OverlapTexts overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested

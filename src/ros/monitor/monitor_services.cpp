@@ -6,6 +6,8 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kResetPeriod = 1.0;  // [s]
+
 /// One for each query and change that is answered or waits, and one to refuse more.
 int threads() {
   return QueryLimits().queries + 4;
@@ -39,11 +41,12 @@ void MonitorServices::setWaiting(const std::string& reason) {
   if (queries_ == nullptr) waiting_ = reason;
 }
 
-void MonitorServices::setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame) {
+void MonitorServices::setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame, bool may_reset) {
   const std::lock_guard<std::mutex> lock(mutex_);
   queries_ = &queries;
   editor_ = &editor;
   fixed_frame_ = fixed_frame;
+  may_reset_ = may_reset;
 }
 
 bool MonitorServices::isReady(std::string& why_not) {
@@ -101,9 +104,22 @@ bool MonitorServices::getPlan(GetPlan::Request&, GetPlan::Response& response) {
   return true;
 }
 
-bool MonitorServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+/// Nothing is known of contacts until the next cycle after each reset.
+std::string MonitorServices::whyNoReset() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!may_reset_) return "the parameter requests/allow does not hold reset";
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (!last_reset_.isZero() && (now - last_reset_).toSec() < kResetPeriod)
+    return "there was one less than a second ago";
+  last_reset_ = now;
   reset_requested_ = true;
-  return true;
+  return {};
+}
+
+bool MonitorServices::reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  const std::string why_not = whyNoReset();
+  if (!why_not.empty()) ROS_WARN_THROTTLE(1.0, "reset is refused: %s", why_not.c_str());
+  return why_not.empty();
 }
 
 }  // namespace sdf_ccd

@@ -24,7 +24,9 @@ namespace sdf_ccd {
 ///   query_points   sdf_ccd/QueryPoints
 ///   update_scene   sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
 ///   get_plan       sdf_ccd/GetPlan      what is checked now
-///   reset          std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms
+///   reset          std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms. Fails
+///   more
+///                                       than once a second, and where the parameter requests/allow does not hold it
 /// Until the monitor is ready, the responses say what it waits for.
 class MonitorServices {
  public:
@@ -40,7 +42,7 @@ class MonitorServices {
   void setWaiting(const std::string& reason);
 
   /// Answers requests from now on. @param queries, editor  must live until stop().
-  void setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame);
+  void setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame, bool may_reset);
 
   /// Whether a reset has been requested since the last call.
   bool takeReset() { return reset_requested_.exchange(false); }
@@ -56,16 +58,19 @@ class MonitorServices {
   bool getPlan(GetPlan::Request& request, GetPlan::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool isReady(std::string& why_not);
+  std::string whyNoReset();
   template <class Request, class Response>
   void answer(const Request& request, Response& response);
 
   const std::atomic<bool>& stop_;
   std::atomic<bool> reset_requested_{false};
   std::mutex mutex_;
-  std::string waiting_ = "starting";  // guarded by mutex_, as all up to fixed_frame_
+  std::string waiting_ = "starting";  // guarded by mutex_, as all up to last_reset_
   Queries* queries_ = nullptr;        // null: not ready
   SceneEditor* editor_ = nullptr;
   std::string fixed_frame_;
+  bool may_reset_ = true;
+  ros::SteadyTime last_reset_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   std::vector<ros::ServiceServer> services_;

@@ -1,6 +1,7 @@
 #include "ros/monitor/outputs.h"
 
-#include <algorithm>
+#include <iterator>
+#include <set>
 
 #include <ros/console.h>
 
@@ -27,30 +28,46 @@ Outputs::Outputs(const ros::NodeHandle& private_node, const ros::Publisher& stat
   contacts_ = node_.advertise<ContactArray>("contacts", 100);
   contact_states_ = node_.advertise<gazebo_msgs::ContactsState>("contact_states", 100);
   torques_.advertise(node_);
+  advertise(loop.world()->description(), {});
   adopt(*prepare(*loop.world()));
   worker_ = std::make_unique<OrderedWorker<Report>>(kQueue, [this](Report& report) { send(report); });
 }
 
 Outputs::~Outputs() = default;
 
+void Outputs::advertise(const SceneDescription& next, const SceneDescription& present) {
+  std::set<std::string> of_next, used;
+  for (const SceneDescription* const scene : {&next, &present})
+    for (const BodyDescription& body : scene->bodies)
+      if (!body.is_world) (scene == &next ? of_next : used).insert(wrenchTopic(body));
+  used.insert(of_next.begin(), of_next.end());
+  std::vector<WrenchTopic> dropped;  // without the lock, as the master is told
+  {
+    const std::lock_guard<std::mutex> lock(topics_mutex_);
+    for (auto topic = topics_.begin(); topic != topics_.end();) {
+      of_next.erase(topic->first);
+      const bool is_used = used.count(topic->first) > 0;
+      if (!is_used) dropped.push_back(std::move(topic->second));
+      topic = is_used ? std::next(topic) : topics_.erase(topic);
+    }
+  }
+  for (const std::string& name : of_next) {
+    const WrenchTopic topic{node_.advertise<geometry_msgs::WrenchStamped>(name, 100),
+                            std::make_shared<MessagePool<geometry_msgs::WrenchStamped>>()};
+    const std::lock_guard<std::mutex> lock(topics_mutex_);
+    topics_[name] = topic;
+  }
+}
+
 std::unique_ptr<Outputs::Change> Outputs::prepare(const CheckedWorld& next) {
   auto change = std::make_unique<Change>();
   change->link_of_body = torques_.linksOf(next.scene());
   const BodyList& bodies = next.scene().bodies;
+  const std::lock_guard<std::mutex> lock(topics_mutex_);
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (bodies[body].is_world) continue;
-    const std::string topic = wrenchTopic(bodies[body]);
-    const auto known =
-        std::find_if(wrenches_.begin(), wrenches_.end(), [&](const LinkWrench& link) { return link.topic == topic; });
-    LinkWrench link{static_cast<int>(body), topic, {}, false, {}};
-    if (known != wrenches_.end()) {
-      link.publisher = known->publisher;
-      link.messages = known->messages;
-    } else {
-      link.publisher = node_.advertise<geometry_msgs::WrenchStamped>(topic, 100);
-      link.messages = std::make_shared<MessagePool<geometry_msgs::WrenchStamped>>();
-    }
-    change->wrenches.push_back(std::move(link));
+    const auto topic = topics_.find(wrenchTopic(bodies[body]));
+    if (topic != topics_.end()) change->wrenches.push_back({topic->second, static_cast<int>(body)});
   }
   return change;
 }

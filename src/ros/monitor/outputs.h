@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -43,13 +45,16 @@ class Outputs {
 
   ~Outputs();
 
-  /// The wrenches on a link, or on an object attached to one.
-  struct LinkWrench {
-    int body;
-    std::string topic;
+  /// A topic, and its messages.
+  struct WrenchTopic {
     ros::Publisher publisher;
-    bool is_wanted = false;
     std::shared_ptr<MessagePool<geometry_msgs::WrenchStamped>> messages;
+  };
+
+  /// The wrenches on a link, or on an object attached to one.
+  struct LinkWrench : WrenchTopic {
+    int body;
+    bool is_wanted = false;
   };
 
   /// The publishers for another world; after adopt(), the former ones.
@@ -58,8 +63,12 @@ class Outputs {
     std::vector<int> link_of_body;  ///< see TorqueOutput
   };
 
-  /// Makes the publishers for the links and attached objects of another world; may run in parallel to cycles, but not
-  /// to adopt().
+  /// Makes the publishers for the links and attached objects of a world, and drops those that neither it nor the
+  /// present one uses. Takes as long as the ROS master does: to be called before prepare(), by a thread for which
+  /// nobody waits. One thread at a time.
+  void advertise(const SceneDescription& next, const SceneDescription& present);
+
+  /// The publishers for another world, as far as they are made; may run in parallel to cycles, but not to adopt().
   std::unique_ptr<Change> prepare(const CheckedWorld& next);
 
   /// Switches to the loop's world, between two cycles. Frees no memory.
@@ -103,7 +112,9 @@ class Outputs {
   MonitorLoop& loop_;
   ProximityOutputs& proximity_;
   ros::Publisher state_, contacts_, contact_states_;
-  std::vector<LinkWrench> wrenches_;
+  std::mutex topics_mutex_;
+  std::map<std::string, WrenchTopic> topics_;  // by name; guarded by topics_mutex_
+  std::vector<LinkWrench> wrenches_;           // those of the cycles
   TorqueOutput torques_;
   MarkerOutputs markers_;
   MessagePool<ContactArray> contact_messages_;

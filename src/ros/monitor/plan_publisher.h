@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <string>
 
 #include <ros/node_handle.h>
@@ -17,19 +18,22 @@ class PlanPublisher {
  public:
   explicit PlanPublisher(ros::NodeHandle private_node);
 
-  /// From now on at most one plan a second is published: a live map makes many versions.
-  /// @param node   its callback queue calls `again`.
-  /// @param again  publishes the present version of the world; called when a plan has been held back for long enough.
-  void limitRate(const ros::NodeHandle& node, const std::function<void()>& again);
+  /// From now on publishes at most one plan a second, and publish() does nothing: a live map makes many versions, and
+  /// does not wait for their plans.
+  /// @param node   whose callback queue calls `world`.
+  /// @param world  returns the present version.
+  void limitRate(const ros::NodeHandle& node, std::function<std::shared_ptr<const CheckedWorld>()> world,
+                 const std::string& fixed_frame);
 
-  /// May be called from any thread.
+  /// To be called by one thread at a time.
   void publish(const CheckedWorld& world, const std::string& fixed_frame);
 
  private:
+  void send(const CheckedWorld& world, const std::string& fixed_frame);
+
   ros::Publisher publisher_;
-  std::mutex mutex_;
-  ros::WallTime published_;  // time of the last plan; 0 before the first
-  ros::WallTimer timer_;     // publishes the last of several versions
+  std::uint64_t version_ = 0;  // the last one sent
+  ros::WallTimer timer_;       // null: the rate is not limited
 };
 
 }  // namespace sdf_ccd

@@ -27,12 +27,20 @@ namespace {
 
 constexpr std::size_t kPointsPerPiece = 500;
 constexpr std::size_t kMotionsPerThread = 16;  // in one piece, so that all threads have work in each
-constexpr double kPreparing = 60.0;            // to prepare one body for point queries, once [s]
 constexpr double kLong = 0.05;                 // freed memory is returned after answers that take longer [s]
+
+std::chrono::steady_clock::duration durationOf(double seconds) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 void requireAtMost(std::size_t limit, std::size_t given, const std::string& what) {
   if (given <= limit) return;
   refuse(std::to_string(given) + " " + what + ": at most " + std::to_string(limit) + " are allowed in one request");
+}
+
+/// Nothing is known of what an outdated map has around the robot.
+void requireCurrentMap(const CheckedWorld& world) {
+  if (world.map_age && world.map_age->isTooOld(ros::Time::now())) refuse(world.map_age->text());
 }
 
 std::size_t pointsOf(const QueryMotions::Request& request) {
@@ -120,11 +128,7 @@ class Queries::Piece {
 
   /// @param seconds  that the answer may take instead.
   Piece(Queries& queries, double& spent, double seconds)
-      : turn_(queries.turns_),
-        spent_(spent),
-        start_(Clock::now()),
-        deadline_(start_ +
-                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds - spent))) {
+      : turn_(queries.turns_), spent_(spent), start_(Clock::now()), deadline_(start_ + durationOf(seconds - spent)) {
     checkCancelled();
   }
   ~Piece() { spent_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -151,13 +155,18 @@ void Queries::answerWith(const Work& work, Response& response) {
     response.message = why;
   };
   try {
+    const CancelScope scope(std::chrono::steady_clock::now() + durationOf(request_time_));
     const WorkTurns::Caller registered(turns_);
     work();
     response.success = true;
   } catch (const Cancelled&) {
     if (caller.requested()) throw;
-    fail("the request takes more than " + numberText(limits_.seconds) +
-         " s: split it into parts, or send it again when the computer is less busy");
+    if (secondsSince(start) >= request_time_) {
+      fail("the request has taken longer than " + numberText(request_time_) + " s (parameter request_time)");
+    } else {
+      fail("the request takes more than " + numberText(limits_.seconds) +
+           " s: split it into parts, or send it again when the computer is less busy");
+    }
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -177,7 +186,8 @@ Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene
       max_age_(parameters.tf.max_latency),
       history_(history),
       limits_(limits),
-      turns_(limits.queries) {}
+      request_time_(parameters.request_time),
+      turns_(limits.queries, "queries are being answered") {}
 
 void Queries::setWorld(std::shared_ptr<const CheckedWorld> world) {
   const std::lock_guard<std::mutex> lock(world_mutex_);
@@ -197,6 +207,7 @@ void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response&
 /// The present poses, for everything that a motion does not specify.
 /// @param plan_frame  frame of the plan's root poses.
 PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWorld& world) const {
+  requireCurrentMap(world);
   CurrentPoses now = currentPoses(history_, {*robot_, tf_prefix_}, world.scene());
   posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
   const std::string frame = withoutLeadingSlash(plan_frame);
@@ -216,12 +227,13 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   requireAtMost(limits_.waypoints,
                 request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
                 "waypoints");
-  const std::shared_ptr<const CheckedWorld> world = this->world();
-  response.scene_version = world->version();
   double spent = 0.0;
+  std::shared_ptr<const CheckedWorld> world;
   PlannedMotion planned;
   {
     const Piece piece(*this, spent);
+    world = this->world();  // only now, as this may have waited
+    response.scene_version = world->version();
     planned = plan(request, *world);
   }
   CycleRequest wanted;
@@ -314,6 +326,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   const std::shared_ptr<const CheckedWorld> world = this->world();
   const Scene& scene = world->scene();
   response.scene_version = world->version();
+  requireCurrentMap(*world);
   Isometry3d X_WQ;
   std::string problem;
   if (!history_.lookup(frame, request.header.stamp, X_WQ, problem)) refuse(problem);
@@ -325,8 +338,8 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
     const Body& description = scene.bodies[body];
     if (description.failure.empty() && !missing[body].empty())
       refuse("body " + description.name + ": " + missing[body]);
-    double preparing = 0.0;
-    const Piece piece(*this, preparing, kPreparing);
+    double preparing = 0.0;  // what was prepared once is kept
+    const Piece piece(*this, preparing, request_time_);
     const std::string doubt = search.prepare(body);
     if (doubt.empty()) continue;
     const std::string line = "body " + description.name + ": " + doubt;

@@ -45,6 +45,9 @@ class Queries {
 
   std::shared_ptr<const CheckedWorld> world() const;
 
+  /// Frees what was prepared of meshes that are gone.
+  void dropUnused() { sdf_ccd::dropUnused(*meshes_); }
+
   /// Draws each motion that is checked while there is a subscriber (PlannedMarkers). Must be called before answer().
   void setMarkerPublisher(const ros::Publisher& publisher) { marker_publisher_ = publisher; }
 
@@ -77,9 +80,10 @@ class Queries {
   const TfHistory& history_;
   ros::Publisher marker_publisher_;  // if it is empty, nothing is drawn
   QueryLimits limits_;
+  double request_time_;  // longest time until an answer, with all waiting [s]
   WorkTurns turns_;
-  std::shared_ptr<MeshDistances> meshes_ = makeMeshDistances();  // used by one answer at a time
-  std::set<std::string> doubts_;  // about bodies that errors of distances allow for, as logged; likewise
+  std::shared_ptr<MeshDistances> meshes_ = makeMeshDistances();
+  std::set<std::string> doubts_;  // about bodies that errors of distances allow for, as logged; used by one answer at a time
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
   WorkArena arena_;
 };

@@ -1,7 +1,14 @@
 #include "ros/monitor/reconfiguration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/number_text.h"
 
 namespace sdf_ccd {
 namespace {
@@ -62,11 +69,62 @@ std::string notFinite(const Config& config) {
   return bad == message.doubles.end() ? "" : bad->name + " is not finite";
 }
 
+/// One side of a start-up value.
+struct Limit {
+  const char* name;
+  double value, start;
+  enum { kNotLess, kNotMore, kEqual } side;
+
+  bool holds() const {
+    return value == start || (side == kNotLess && value > start) || (side == kNotMore && value < start);
+  }
+};
+
+std::string whyBeyond(std::initializer_list<Limit> limits) {
+  const auto beyond = std::find_if(limits.begin(), limits.end(), [](const Limit& limit) { return !limit.holds(); });
+  if (beyond == limits.end()) return {};
+  constexpr std::array<const char*, 3> kSides{"at least", "at most", "equal to"};
+  return fmt::format("{} must stay {} its start-up value {}, as the parameter requests/allow does not hold limits",
+                     beyond->name, kSides[beyond->side], numberText(beyond->start));
+}
+
+std::string whyBeyond(const CollisionMonitorConfig& config, const CollisionMonitorConfig& start) {
+  return whyBeyond({{"rate", config.rate, start.rate, Limit::kNotLess},
+                    {"max_cycle_time", config.max_cycle_time, start.max_cycle_time, Limit::kEqual},
+                    {"report_distance", config.report_distance, start.report_distance, Limit::kNotLess},
+                    {"warning_distance", config.warning_distance, start.warning_distance, Limit::kNotLess},
+                    {"stop_distance", config.stop_distance, start.stop_distance, Limit::kNotLess}});
+}
+
+std::string whyBeyond(const VelocityScaleConfig& config, const VelocityScaleConfig& start) {
+  return whyBeyond({{"max_speed", config.max_speed, start.max_speed, Limit::kNotLess},
+                    {"max_acceleration", config.max_acceleration, start.max_acceleration, Limit::kNotLess},
+                    {"deceleration", config.deceleration, start.deceleration, Limit::kNotMore},
+                    {"reaction_time", config.reaction_time, start.reaction_time, Limit::kNotLess},
+                    {"period", config.period, start.period, Limit::kNotLess},
+                    {"max_age", config.max_age, start.max_age, Limit::kNotMore}});
+}
+
 std::string whyInvalid(const CollisionMonitorConfig& config) {
   if (config.warning_distance > 0.0 && config.warning_distance < config.stop_distance) {
     return "warning_distance must be 0 or at least stop_distance";
   }
+  const std::string no_time = whyNoCycleTime(config.max_cycle_time);
+  if (!no_time.empty()) return "max_cycle_time: expected " + no_time;
   return notFinite(config);
+}
+
+std::string whyInvalid(const VelocityScaleConfig& config) {
+  return notFinite(config);
+}
+
+/// Refuses what is invalid and, unless it is allowed, what leaves the safe side of the start-up values.
+template <class Config>
+std::function<std::string(const Config&)> refusalOf(const Config& start, bool are_limits_allowed) {
+  return [start, are_limits_allowed](const Config& config) {
+    const std::string why = whyInvalid(config);
+    return !why.empty() || are_limits_allowed ? why : whyBeyond(config, start);
+  };
 }
 
 }  // namespace
@@ -80,17 +138,18 @@ ConfigServer<Config>::ConfigServer(const ros::NodeHandle& node, const Config& st
 
 template <class Config>
 void ConfigServer<Config>::set(Config& config) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::string why_invalid = why_invalid_(config);
-  if (!why_invalid.empty()) ROS_WARN("dynamic_reconfigure: the new values are rejected: %s", why_invalid.c_str());
-  // The server's own first configuration is clamped to its limits.
-  if (is_first_call_ || !why_invalid.empty()) {
-    config = current_;
-    is_first_call_ = false;
-    return;
+  const bool is_first = std::exchange(is_first_call_, false);  // the server's own, clamped to its limits
+  const std::string why_not = is_first ? "" : why_invalid_(config);
+  if (!why_not.empty()) ROS_WARN("dynamic_reconfigure: the new values are rejected: %s", why_not.c_str());
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);  // the cycles wait for it: not while the console may block
+    if (is_first || !why_not.empty()) {
+      config = current_;
+      return;
+    }
+    current_ = config;
+    has_changed_ = true;
   }
-  current_ = config;
-  has_changed_ = true;
   changed_();
 }
 
@@ -104,11 +163,12 @@ std::optional<Config> ConfigServer<Config>::take() {
 
 Reconfiguration::Reconfiguration(const ros::NodeHandle& private_node, const MonitorParameters& parameters,
                                  const std::function<void()>& changed)
-    : monitor_(private_node, configOf(parameters), whyInvalid, changed) {
+    : monitor_(private_node, configOf(parameters), refusalOf(configOf(parameters), parameters.requests.limits),
+               changed) {
   if (!parameters.proximity.promise) return;
-  velocity_scale_ = std::make_unique<ConfigServer<VelocityScaleConfig>>(ros::NodeHandle(private_node, "velocity_scale"),
-                                                                        configOf(*parameters.proximity.promise),
-                                                                        notFinite<VelocityScaleConfig>, changed);
+  const VelocityScaleConfig start = configOf(*parameters.proximity.promise);
+  velocity_scale_ = std::make_unique<ConfigServer<VelocityScaleConfig>>(
+      ros::NodeHandle(private_node, "velocity_scale"), start, refusalOf(start, parameters.requests.limits), changed);
 }
 
 bool Reconfiguration::apply(MonitorParameters& parameters) {

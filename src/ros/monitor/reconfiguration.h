@@ -15,13 +15,13 @@
 
 namespace sdf_ccd {
 
-/// The values set by clients of dynamic_reconfigure in one namespace. An invalid configuration is refused as a whole:
-/// the response then holds the present values.
+/// The values set by clients of dynamic_reconfigure in one namespace. An invalid configuration, or one that is not
+/// permitted, is refused as a whole: the response then holds the present values, and the log says why.
 template <class Config>
 class ConfigServer {
  public:
   /// @param start  the first values, whatever the parameter server holds.
-  /// @param why_invalid  returns why a configuration is invalid; empty if it is valid.
+  /// @param why_invalid  returns why a configuration is refused; empty if it is not.
   /// @param changed  called by the serving thread when new values have been set.
   ConfigServer(const ros::NodeHandle& node, const Config& start, std::function<std::string(const Config&)> why_invalid,
                std::function<void()> changed);
@@ -42,6 +42,8 @@ class ConfigServer {
 };
 
 /// The parameters that can change while the monitor runs (cfg/): rate and time budget, distances, output and markers.
+/// What limits the robot can be set to the safe side of the start-up parameters only, unless requests/allow holds
+/// limits.
 ///
 /// Serves, below the node's name, as dynamic_reconfigure does, with its topics parameter_descriptions and
 /// parameter_updates:

@@ -4,12 +4,13 @@
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
-#include <thread>
 
 #include <ros/package.h>
 
+#include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
+#include "ros/world/world_bodies.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -18,8 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMaxCallers = 3;  // one that changes the scene, and others that wait
-constexpr auto kPollPeriod = std::chrono::microseconds(200);
-constexpr auto kMaxAdoptWait = std::chrono::milliseconds(500);  // longest wait for a cycle to adopt a version
+constexpr auto kTurnPeriod = std::chrono::milliseconds(20);
 
 int lastChangeOf(const std::string& object, const UpdateScene::Request& request) {
   for (auto change = request.changes.rbegin(); change != request.changes.rend(); ++change)
@@ -29,31 +29,45 @@ int lastChangeOf(const std::string& object, const UpdateScene::Request& request)
 
 }  // namespace
 
-/// The exclusive right of one caller to change the scene, for its lifetime.
-class SceneEditor::EditLock {
+/// The exclusive right to make the next version, for its lifetime.
+class SceneEditor::Turn {
  public:
-  explicit EditLock(SceneEditor& editor) : editor_(editor) {
-    if (++editor.callers_ > kMaxCallers) {
-      --editor.callers_;
-      throw std::runtime_error("busy: " + std::to_string(kMaxCallers) +
-                               " changes of the scene are being made; try again later");
+  Turn(SceneEditor& editor, Changer changer) : editor_(editor) {
+    const CancelPoint cancel;
+    const bool is_map = changer == Changer::kMap;
+    std::unique_lock<std::mutex> lock(editor.turn_mutex_);
+    editor.maps_waiting_ += is_map;
+    while (editor.is_taken_ || (!is_map && editor.maps_waiting_ > 0)) {
+      editor.turn_changed_.wait_for(lock, kTurnPeriod);
+      if (!cancel.requested()) continue;
+      editor.maps_waiting_ -= is_map;
+      throw Cancelled();
     }
-    try {
-      while (!editor.edit_mutex_.try_lock_for(std::chrono::milliseconds(20))) checkCancelled();
-    } catch (...) {
-      --editor.callers_;
-      throw;
+    editor.maps_waiting_ -= is_map;
+    editor.is_taken_ = true;
+  }
+  ~Turn() {
+    {
+      const std::lock_guard<std::mutex> lock(editor_.turn_mutex_);
+      editor_.is_taken_ = false;
     }
+    editor_.turn_changed_.notify_all();
   }
-  ~EditLock() {
-    editor_.edit_mutex_.unlock();
-    --editor_.callers_;
-  }
-  EditLock(const EditLock&) = delete;
-  EditLock& operator=(const EditLock&) = delete;
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
 
  private:
   SceneEditor& editor_;
+};
+
+/// A version that is being made.
+struct SceneEditor::Draft {
+  Changer changer;
+  ChangingScene scene;  // with what this changer changes
+  WorkArena& arena;
+  std::shared_ptr<const WorldEditor::Parts> parts;
+  std::string making;                         // the body that is being built: after an exception, that failed
+  std::shared_ptr<const CheckedWorld> world;  // the version that was made
 };
 
 SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described,
@@ -62,74 +76,91 @@ SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedSce
     : editor_(std::move(editor)),
       parts_(parts),
       files_(parameters.resource_roots, makeResourceLoader(ros::package::getPath, "", parameters.allow_http)),
+      request_time_(parameters.request_time),
       wake_(std::move(wake)),
       changed_(std::move(changed)),
-      scene_(described, parameters.pairs, parts.loop.world()->description()),
+      handover_([this](PreparedWorld& prepared) {
+        const std::shared_ptr<const CheckedWorld> world = prepared.loop->world;
+        parts_.loop.adopt(*prepared.loop);
+        parts_.outputs.adopt(*prepared.outputs);
+        parts_.queries.setWorld(world);
+      }),
+      requests_(kMaxCallers, "changes of the scene are being made"),
+      scene_(std::make_shared<const ChangingScene>(described, parameters.pairs, parts.loop.world()->description(),
+                                                   parameters.requests)),
       last_(parts.loop.world()) {}
 
 SceneEditor::~SceneEditor() = default;
 
-bool SceneEditor::adopt() {
-  PreparedWorld* const ready = pending_.exchange(nullptr);
-  if (!ready) return false;
+/// Builds the bodies of the draft that the last version does not have.
+void SceneEditor::build(Draft& draft) {
+  draft.arena.run([&] {
+    SceneDescription description = draft.scene.description(limits_);
+    // With a body that stands for the tiles to come: no map is to wait until bodies are prepared for its first tile.
+    const auto is_tile = [](const BodyDescription& body) { return !body.map.empty(); };
+    if (description.has_live_map && std::none_of(description.bodies.begin(), description.bodies.end(), is_tile))
+      description.bodies.push_back(awaitedTile(parts_.loop.fixedFrame(), "to come"));
+    draft.parts = editor_->prepare(
+        description, [&](const std::string& body) { draft.making = body; },
+        [](const std::string& cost) { ROS_INFO("The next version of the scene needs %s", cost.c_str()); });
+  });
+}
+
+/// Makes the draft's version, with what others have changed since, and hands it over to the cycles.
+void SceneEditor::commit(Draft& draft) {
+  while (!makeNext(draft)) build(draft);
+  wake_();
+  if (draft.changer == Changer::kRequest)
+    parts_.loop.warnings().set("requests", draft.scene.weakened(draft.world->description()));
+  changed_(*draft.world);
+}
+
+/// @return false if bodies have to be built first, because others have changed the scene.
+bool SceneEditor::makeNext(Draft& draft) {
+  const Turn turn(*this, draft.changer);
+  if (draft.changer == Changer::kMap) {
+    ChangingScene rebased = *scene();
+    rebased.setTilesOf(draft.scene);
+    draft.scene = std::move(rebased);
+  } else {
+    draft.scene.setTilesOf(*scene());
+  }
+  draft.arena.run([&] {
+    SceneDescription description = draft.scene.description(limits_);
+    std::vector<UnreachablePair> unreachable = draft.scene.unreachable(description);
+    const auto snapshot = editor_->next(std::move(description), *draft.parts);
+    if (!snapshot) return;
+    const auto world = std::make_shared<CheckedWorld>(snapshot, std::move(unreachable), draft.scene.attachedSince());
+    world->map_age = draft.scene.mapAge();
+    world->allowed_by_requests = draft.scene.allowedByRequests(*snapshot->description);
+    draft.world = world;
+  });
+  if (!draft.world) return false;
+  std::unique_ptr<PreparedWorld> last = handover_.withdraw();
   try {
-    const std::shared_ptr<const CheckedWorld> world = ready->loop->world;
-    parts_.loop.adopt(*ready->loop);
-    parts_.outputs.adopt(*ready->outputs);
-    parts_.queries.setWorld(world);
+    handover_.offer(prepare(draft.world, draft.arena));
   } catch (...) {
-    adopted_ = ready;  // otherwise withdraw() would wait forever
+    if (last) handover_.offer(std::move(last));
     throw;
   }
-  adopted_ = ready;
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  scene_ = std::make_shared<const ChangingScene>(draft.scene);
+  last_ = draft.world;
   return true;
 }
 
-/// Withdraws the version that was handed over last if the cycles have not taken it, else waits until they have adopted
-/// it; then frees its parts.
-void SceneEditor::withdraw() {
-  if (!handed_over_) return;
-  if (!pending_.exchange(nullptr)) {
-    while (adopted_ != handed_over_.get()) std::this_thread::sleep_for(kPollPeriod);
-  }
-  adopted_ = nullptr;
-  handed_over_.reset();
-}
-
-std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const CheckedWorld>& world) {
-  withdraw();
+std::unique_ptr<PreparedWorld> SceneEditor::prepare(const std::shared_ptr<const CheckedWorld>& world,
+                                                    WorkArena& arena) {
   auto prepared = std::make_unique<PreparedWorld>();
-  arena_.run([&] { prepared->loop = parts_.loop.prepare(world); });
+  prepared->version = world->version();
+  arena.run([&] { prepared->loop = parts_.loop.prepare(world); });
   prepared->outputs = parts_.outputs.prepare(*world);
   return prepared;
 }
 
-bool SceneEditor::handOver(std::unique_ptr<PreparedWorld> prepared) {
-  handed_over_ = std::move(prepared);
-  pending_ = handed_over_.get();
-  wake_();
-  const CancelPoint cancel;
-  for (const auto start = Clock::now();
-       adopted_ != handed_over_.get() && Clock::now() - start < kMaxAdoptWait && !cancel.requested();)
-    std::this_thread::sleep_for(kPollPeriod);
-  const bool is_adopted = adopted_ == handed_over_.get();
-  if (is_adopted) withdraw();  // frees the former version
-  return is_adopted;
-}
-
-/// @param making  receives the name of the body that is being made: after an exception, of the one that failed.
-std::shared_ptr<const CheckedWorld> SceneEditor::make(const ChangingScene& scene, std::string& making) {
-  std::shared_ptr<const CheckedWorld> world;
-  arena_.run([&] {
-    SceneDescription description = scene.description(limits_);
-    std::vector<UnreachablePair> unreachable = scene.unreachable(description);
-    world = std::make_shared<const CheckedWorld>(
-        editor_->next(
-            std::move(description), [&](const std::string& body) { making = body; },
-            [](const std::string& cost) { ROS_INFO("The next version of the scene needs %s", cost.c_str()); }),
-        std::move(unreachable), scene.attachedSince());
-  });
-  return world;
+std::shared_ptr<const ChangingScene> SceneEditor::scene() {
+  const std::lock_guard<std::mutex> lock(last_mutex_);
+  return scene_;
 }
 
 void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
@@ -138,56 +169,44 @@ void SceneEditor::save(const std::string& file, const ChangingScene& scene, Chan
   sources.files.write(file, scene.text(sources, sources.warnings));
 }
 
-void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response) {
+void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response, std::string& making) {
   const auto start = Clock::now();
-  ChangingScene scene = scene_;
+  Draft draft{Changer::kRequest, *scene(), arena_, nullptr, {}, nullptr};
   ChangeSources sources{parts_.loop.history(), files_, limits_, limits_.triangles, {}, ros::Time::now()};
   if (request.changes.size() > limits_.objects)
     throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes in one request");
   for (const SceneChange& change : request.changes) {
     response.failed_change = static_cast<std::int32_t>(&change - request.changes.data());
-    scene.apply(change, sources);
+    draft.scene.apply(change, sources);
   }
   response.failed_change = -1;
-  std::shared_ptr<const CheckedWorld> world = last_;
-  std::unique_ptr<PreparedWorld> prepared;
-  std::string making;
   try {
-    if (!request.changes.empty()) world = make(scene, making);
+    if (!request.changes.empty()) build(draft);
   } catch (const std::invalid_argument&) {
-    response.failed_change = lastChangeOf(making, request);
+    response.failed_change = lastChangeOf(draft.making, request);
+    throw;
+  } catch (const Cancelled&) {
+    response.failed_change = lastChangeOf(draft.making, request);
+    making = draft.making;
     throw;
   }
-  if (!request.changes.empty()) prepared = prepare(world);
-  if (!request.save_file.empty()) save(request.save_file, scene, sources);
-  response.seconds = secondsSince(start);
+  if (!request.changes.empty()) parts_.outputs.advertise(draft.scene.description(limits_), world()->description());
+  if (!request.save_file.empty()) save(request.save_file, draft.scene, sources);
   response.adopted = true;
   if (!request.changes.empty()) {
+    commit(draft);
+    response.seconds = secondsSince(start);
     const auto ready = Clock::now();
-    response.adopted = commit(std::move(scene), world, std::move(prepared));
+    response.adopted = handover_.waitFor(draft.world->version());
     response.adopt_seconds = secondsSince(ready);
-    response.prepared = static_cast<std::uint32_t>(world->snapshot->prepared);
-    response.shared = static_cast<std::uint32_t>(world->snapshot->shared);
-    const std::vector<std::string>& made = world->snapshot->warnings;
+    parts_.queries.dropUnused();
+    response.prepared = static_cast<std::uint32_t>(draft.world->snapshot->prepared);
+    response.shared = static_cast<std::uint32_t>(draft.world->snapshot->shared);
+    const std::vector<std::string>& made = draft.world->snapshot->warnings;
     sources.warnings.insert(sources.warnings.end(), made.begin(), made.end());
   }
   for (const std::string& warning : sources.warnings) response.message += warning + "\n";
   response.success = true;
-}
-
-/// Makes this the scene, and hands its world over to the cycles. @return whether they have adopted it.
-bool SceneEditor::commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
-                         std::unique_ptr<PreparedWorld> prepared) {
-  scene_ = std::move(scene);
-  setLast(world);
-  const bool is_adopted = handOver(std::move(prepared));
-  changed_(*world);
-  return is_adopted;
-}
-
-void SceneEditor::setLast(std::shared_ptr<const CheckedWorld> world) {
-  const std::lock_guard<std::mutex> lock(last_mutex_);
-  last_.swap(world);
 }
 
 std::shared_ptr<const CheckedWorld> SceneEditor::world() {
@@ -195,34 +214,39 @@ std::shared_ptr<const CheckedWorld> SceneEditor::world() {
   return last_;
 }
 
-std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles) {
+std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age, WorkArena& arena) {
   lowerPriority();
-  const EditLock lock(*this);
-  ChangingScene scene = scene_;
-  scene.setTiles(std::move(tiles));
-  std::string making;
-  const std::shared_ptr<const CheckedWorld> world = make(scene, making);
-  commit(std::move(scene), world, prepare(world));
-  return world->version();
+  Draft draft{Changer::kMap, *scene(), arena, nullptr, {}, nullptr};
+  draft.scene.setTiles(std::move(tiles), std::move(age));
+  build(draft);
+  commit(draft);
+  handover_.waitFor(draft.world->version());
+  return draft.world->version();
 }
 
 void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Response& response) {
   lowerPriority();
   response.failed_change = -1;
+  const CancelPoint monitor;
+  std::string making;
   try {
-    const EditLock lock(*this);
-    try {
-      edit(request, response);
-    } catch (const std::exception& error) {
-      response.success = false;
-      response.message = error.what();
-    }
-    response.scene_version = last_->version();
-    response.objects = scene_.objects();
+    const CancelScope scope(Clock::now() +
+                            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(request_time_)));
+    const WorkTurns::Caller registered(requests_);
+    const WorkTurns::Turn turn(requests_);
+    edit(request, response, making);
+  } catch (const Cancelled&) {
+    if (monitor.requested()) throw;
+    response.success = false;
+    response.message = "nothing has changed: the request has taken longer than " + numberText(request_time_) +
+                       " s (parameter request_time)" +
+                       (making.empty() ? "" : "; the time ended while " + making + " was built");
   } catch (const std::exception& error) {
     response.success = false;
     response.message = error.what();
   }
+  response.scene_version = world()->version();
+  response.objects = scene()->objects();
 }
 
 }  // namespace sdf_ccd

@@ -1,31 +1,28 @@
 #pragma once
 
-#include <atomic>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 
-#include "ros/monitor/monitor_loop.h"
-#include "ros/monitor/outputs.h"
 #include "ros/monitor/queries.h"
 #include "ros/monitor/work_arena.h"
+#include "ros/monitor/work_turns.h"
+#include "ros/monitor/world_handover.h"
 #include "ros/world/changing_scene.h"
 #include "sdf_ccd/UpdateScene.h"
 
 namespace sdf_ccd {
 
-/// The parts for a version of the world, ready to be adopted between two cycles.
-struct PreparedWorld {
-  std::unique_ptr<LoopChange> loop;
-  std::unique_ptr<Outputs::Change> outputs;
-};
-
-/// Makes the next version of the world in the calling threads, one after the other, in parallel to the cycles and with
-/// lower priority, on at most half of the cores; then hands it over to the thread of the cycles.
+/// Makes the next version of the world in the calling threads, in parallel to the cycles and with lower priority; then
+/// hands it over to the thread of the cycles.
 ///
-/// A CancelScope of the calling thread ends a change with Cancelled; what was prepared until then is kept, and the
-/// scene does not change.
+/// What may take long is done before anybody waits for it: requests read their files and build their bodies one after
+/// the other, while maps, which have threads of their own, come and go. Only the bookkeeping of a version, which each
+/// map needs as well, is done by one at a time, on top of what the others have changed meanwhile; maps go first.
+///
+/// A CancelScope of the calling thread ends a change with Cancelled; the scene does not change then.
 class SceneEditor {
  public:
   struct Parts {
@@ -41,52 +38,57 @@ class SceneEditor {
               const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
   ~SceneEditor();
 
-  /// Answers a request. Throws only Cancelled.
+  /// Answers a request, within the parameter request_time. Throws only Cancelled.
   void update(const UpdateScene::Request& request, UpdateScene::Response& response);
 
-  /// Replaces the tiles of the live map. @return the version with the new ones.
+  /// Replaces the tiles of the live map. Waits for no request, but for the bookkeeping of one that is under way.
+  /// @param age    of the map; null if it never gets too old.
+  /// @param arena  of the calling thread.
+  /// @return the version with the new ones.
   /// @throws std::exception if they cannot be made; Cancelled. The scene does not change then.
-  std::uint64_t setMap(std::vector<BodyDescription> tiles);
+  std::uint64_t setMap(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age, WorkArena& arena);
 
   /// The last version that was made. May be called from any thread.
   std::shared_ptr<const CheckedWorld> world();
 
-  /// For other work in parallel to the cycles.
-  WorkArena& arena() { return arena_; }
-
   /// Adopts a version if one is ready. To be called by the thread of the cycles, between two cycles; takes
   /// microseconds.
   /// @return whether there was one.
-  bool adopt();
+  bool adopt() { return handover_.adopt(); }
 
  private:
-  class EditLock;
-  void edit(const UpdateScene::Request& request, UpdateScene::Response& response);
-  std::shared_ptr<const CheckedWorld> make(const ChangingScene& scene, std::string& making);
-  std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world);
-  bool handOver(std::unique_ptr<PreparedWorld> prepared);
-  bool commit(ChangingScene scene, const std::shared_ptr<const CheckedWorld>& world,
-              std::unique_ptr<PreparedWorld> prepared);
-  void setLast(std::shared_ptr<const CheckedWorld> world);
-  void withdraw();
+  class Turn;
+  enum class Changer { kRequest, kMap };
+  struct Draft;
+
+  void edit(const UpdateScene::Request& request, UpdateScene::Response& response, std::string& making);
+  void build(Draft& draft);
+  void commit(Draft& draft);
+  bool makeNext(Draft& draft);
+  std::unique_ptr<PreparedWorld> prepare(const std::shared_ptr<const CheckedWorld>& world, WorkArena& arena);
+  std::shared_ptr<const ChangingScene> scene();
   void save(const std::string& file, const ChangingScene& scene, ChangeSources& sources);
 
   std::unique_ptr<WorldEditor> editor_;
   Parts parts_;
   RequestFiles files_;
   RequestLimits limits_;
+  const double request_time_;  // [s]
   std::function<void()> wake_;
   std::function<void(const CheckedWorld&)> changed_;
-  WorkArena arena_;
+  WorldHandover handover_;
+
+  WorkTurns requests_;
+  WorkArena arena_;  // of requests
+
+  std::mutex turn_mutex_;
+  std::condition_variable turn_changed_;
+  bool is_taken_ = false;  // guarded by turn_mutex_, as maps_waiting_: the right to make the next version
+  int maps_waiting_ = 0;
 
   std::mutex last_mutex_;
-  std::timed_mutex edit_mutex_;
-  std::atomic<int> callers_{0};
-  ChangingScene scene_;                                 // guarded by edit_mutex_, as all below
-  std::shared_ptr<const CheckedWorld> last_;            // last version made; also guarded by last_mutex_
-  std::unique_ptr<PreparedWorld> handed_over_;          // last version handed over to the cycles
-  std::atomic<PreparedWorld*> pending_{nullptr};        // the same; null once the thread of the cycles has taken it
-  std::atomic<const PreparedWorld*> adopted_{nullptr};  // the same, once the cycles use it
+  std::shared_ptr<const ChangingScene> scene_;  // guarded by last_mutex_, as last_; changed by who has the turn
+  std::shared_ptr<const CheckedWorld> last_;    // last version made
 };
 
 }  // namespace sdf_ccd

@@ -76,6 +76,8 @@ std::string uncheckedCause(const MonitorLoop& loop) {
 }
 
 std::string uncheckedPair(const MonitorLoop& loop) {
+  const CycleResult& result = loop.result();
+  if (static_cast<std::size_t>(result.not_checked) == result.failed.size()) return {};
   for (const PairResult& pair : loop.result().pairs) {
     if (isUnchecked(pair) && !isOfUncheckedBody(loop, pair)) return pairReason(loop, pair);
   }

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
+#include <list>
 #include <mutex>
+#include <string>
 
 namespace sdf_ccd {
 
@@ -11,7 +12,8 @@ namespace sdf_ccd {
 class WorkTurns {
  public:
   /// @param max_callers  at a time.
-  explicit WorkTurns(int max_callers) : max_callers_(max_callers) {}
+  /// @param what         they are doing, for who is refused: "queries are being answered".
+  WorkTurns(int max_callers, std::string what) : max_callers_(max_callers), what_(std::move(what)) {}
 
   /// A caller, for its lifetime.
   class Caller {
@@ -29,6 +31,7 @@ class WorkTurns {
   /// The turn for one piece of work, for its lifetime. Waits for all pieces that came before.
   class Turn {
    public:
+    /// @throws Cancelled.
     explicit Turn(WorkTurns& turns);
     ~Turn();
     Turn(const Turn&) = delete;
@@ -36,15 +39,16 @@ class WorkTurns {
 
    private:
     WorkTurns& turns_;
+    std::list<Turn*>::iterator place_;
   };
 
  private:
   const int max_callers_;
+  const std::string what_;
   std::mutex mutex_;
-  std::condition_variable served_changed_;
+  std::condition_variable first_changed_;
   int callers_ = 0;
-  std::uint64_t next_ticket_ = 0;
-  std::uint64_t served_ticket_ = 0;
+  std::list<Turn*> queue_;  // the first one works
 };
 
 }  // namespace sdf_ccd

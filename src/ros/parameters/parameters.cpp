@@ -1,6 +1,7 @@
 #include "ros/parameters/parameters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <tuple>
 
@@ -13,9 +14,11 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr double kPreparationTime = 20.0;  // of a body [s]
-constexpr double kLongestCycle = 3600.0;   // transforms have to be kept for that long [s]
-constexpr std::size_t kMaxRules = 1000;    // each is matched with each pair
+constexpr double kPreparationTime = 20.0;   // of a body [s]
+constexpr double kLongestRequest = 3600.0;  // [s]
+constexpr double kLongestCycle = 3600.0;    // transforms have to be kept for that long [s]
+constexpr std::size_t kMaxRules = 1000;     // each is matched with each pair
+constexpr double kByRate = -1.0;            // max_cycle_time: a share of the period
 
 std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
   std::vector<PairRule> rules;
@@ -151,6 +154,20 @@ ContactOptions readContact(ParameterReader reader, ContactJoin& join) {
   return contact;
 }
 
+RequestPermissions readRequests(ParameterReader reader) {
+  RequestPermissions requests;
+  if (reader.has("allow")) {
+    try {
+      requests = permissionsOf(reader.texts("allow"));
+    } catch (const std::invalid_argument&) {
+      reader.fail("allow", "a list of add, move, attach, rules, clear, reset and limits");
+    }
+  }
+  requests.protected_bodies = reader.texts("protected");
+  reader.finish();
+  return requests;
+}
+
 OctomapObject readOctomap(ParameterReader reader, LiveMapParameters& live) {
   OctomapObject octomap;
   live.topic = reader.name("topic", "");
@@ -206,6 +223,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.resource_roots = reader.texts("resource_roots");
   for (const std::string& root : parameters.resource_roots)
     if (root.empty() || root[0] != '/') reader.fail("resource_roots", "absolute paths of folders");
+  parameters.requests = readRequests(reader.group("requests"));
+  parameters.request_time = reader.positive("request_time", parameters.request_time);
+  if (parameters.request_time > kLongestRequest) reader.fail("request_time", "at most an hour");
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
   parameters.scene = readScene(reader);
   parameters.scene.max_preparation_time = reader.positive("max_preparation_time", kPreparationTime);
@@ -226,7 +246,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     if (reader.positive(key, 1.0) > kLongestCycle) reader.fail(key, "at most an hour");
   }
   parameters.rate = reader.positive("rate", 30.0);
-  parameters.max_cycle_time = reader.notNegative("max_cycle_time", 0.0);
+  parameters.max_cycle_time = reader.number("max_cycle_time", kByRate);
+  const std::string no_time = whyNoCycleTime(parameters.max_cycle_time);
+  if (!no_time.empty()) reader.fail("max_cycle_time", no_time);
   parameters.trigger = readTrigger(reader, parameters);
 
   parameters.proximity = readProximity(reader);
@@ -244,6 +266,16 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
   parameters.unknown = reader.unread();
   return parameters;
+}
+
+std::string whyNoCycleTime(double max_cycle_time) {
+  const bool is_limit = max_cycle_time >= 0.0 && std::isfinite(max_cycle_time);
+  return is_limit || max_cycle_time == kByRate ? "" : "-1 for 0.8 / rate, 0 for no limit, or a number of seconds";
+}
+
+double cycleTimeLimit(const MonitorParameters& parameters) {
+  constexpr double kShare = 0.8;
+  return parameters.max_cycle_time == kByRate ? kShare / parameters.rate : parameters.max_cycle_time;
 }
 
 MonitorParameters readParameters(const ros::NodeHandle& private_node) {

@@ -15,6 +15,7 @@
 #include "robot_monitor/robot_pair_traits.h"
 #include "ros/messages/markers.h"
 #include "ros/parameters/parameter_reader.h"
+#include "ros/parameters/request_permissions.h"
 #include "ros/parameters/world_object.h"
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
@@ -68,6 +69,8 @@ struct MonitorParameters {
   std::vector<WorldObject> world;
   std::string world_file;                   ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name
+  double request_time = 10.0;               ///< longest time until the answer to a request [s]
+  RequestPermissions requests;
   OctomapObject octomap;
   LiveMapParameters live_map;
   BodyOptions scene;
@@ -78,12 +81,19 @@ struct MonitorParameters {
   MarkerOptions markers;
   ProximityParameters proximity;
   double rate = 0.0;            ///< [Hz]
-  double max_cycle_time = 0.0;  ///< CycleRequest::max_time of a running monitor [s]
+  double max_cycle_time = 0.0;  ///< as the parameter: see cycleTimeLimit()
   TriggerOptions trigger;
   int max_points = 0;
   Refinement refine = Refinement::kNone;  ///< CycleRequest::refine of cycles, bags and planned motions
   std::vector<std::string> unknown;  ///< parameters that nothing reads, with suggestions; in groups they are errors
 };
+
+/// CycleRequest::max_time of a running monitor [s]; bags and queries have no such limit, so that their results do not
+/// depend on the load of the machine.
+double cycleTimeLimit(const MonitorParameters& parameters);
+
+/// What max_cycle_time may be, if this value is not; else empty.
+std::string whyNoCycleTime(double max_cycle_time);
 
 /// Thrown while the robot's description is not set; it may be set later.
 struct MissingDescription : ParameterError {

@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/counted.h"
 #include "ros/world/changing_scene_start_up.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
+namespace {
 
-const ChangingScene::Rule* ChangingScene::lastRule(const std::string& a, const std::string& b) const {
-  const auto found =
-      std::find_if(rules_.rbegin(), rules_.rend(), [&](const Rule& rule) { return matches(rule.pair, a, b); });
-  return found == rules_.rend() ? nullptr : &*found;
+const std::string kTouchLinks = "attached, and allowed by touch_links";
+
+std::string textOf(const RequestRule& rule) {
+  return "update_scene: " + pairName(rule.pair.a, rule.pair.b);
 }
 
-std::string ChangingScene::textOf(const Rule& rule) {
-  return "update_scene: " + pairName(rule.pair.a, rule.pair.b);
+}  // namespace
+
+RuleIndex ChangingScene::ruleIndex() const {
+  return {rules_, start_up_->permissions};
 }
 
 /// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
@@ -37,7 +41,9 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
   };
   const bool may_touch = mayTouch(object.touch_links, other.name) ||
                          (known != objects_.end() && mayTouch(known->second.touch_links, name));
-  if (are_of_robot && may_touch) return "attached, and allowed by touch_links";
+  const RequestPermissions& permissions = start_up_->permissions;
+  const bool is_protected = permissions.isProtected(name) || permissions.isProtected(other.name);
+  if (are_of_robot && may_touch && !is_protected) return kTouchLinks;
   const std::string allowed = whyAllowed(start_up_->rules, name, other.name);
   return allowed.empty() && proved ? kRigidlyJoined : allowed;
 }
@@ -51,11 +57,11 @@ bool ChangingScene::hasChanged(const std::string& body) const {
 /// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
 /// checked.
 /// @return their names, if there are rules.
-std::set<NamePair> ChangingScene::keepAllowed(std::vector<AllowedPair>& allowed) const {
+std::set<NamePair> ChangingScene::keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const {
   std::set<NamePair> kept;
   for (const AllowedPair& pair : start_up_->allowed) {
     if (hasChanged(pair.body_a) || hasChanged(pair.body_b)) continue;
-    const Rule* rule = lastRule(pair.body_a, pair.body_b);
+    const RequestRule* rule = rules.last(pair.body_a, pair.body_b);
     if (rule && !rule->is_allowed && !pair.proved) continue;
     allowed.push_back(pair);
     if (rule && pair.proved) {
@@ -89,10 +95,11 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   const auto objectOf = [&](std::size_t body) -> const Object* {
     return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];
   };
-  const std::set<NamePair> left_out = keepAllowed(scene.allowed);
+  RuleIndex rules = ruleIndex();
+  const std::set<NamePair> left_out = keepAllowed(rules, scene.allowed);
   const auto moving = static_cast<std::size_t>(std::count_if(
       scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
-  if (moving * scene.bodies.size() > limits.pairs)
+  if (moving * first_tile > limits.pairs)  // tiles do not count: no request may keep a map out
     throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
 
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -104,7 +111,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
       if (body_a.is_world && body_b.is_world) continue;
       const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
       if (!is_new && rules_.empty() && (k < first_tile || start_up_->rules.allowed.empty())) continue;
-      const Rule* rule = lastRule(body_a.name, body_b.name);
+      const RequestRule* rule = rules.last(body_a.name, body_b.name);
       bool proved = false;
       std::string reason;
       if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
@@ -116,6 +123,39 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   }
   addProofs(*start_up_->robot, scene.bodies, scene.allowed, start_up_->tf_prefix);
   return scene;
+}
+
+std::size_t ChangingScene::allowedByRequests(const SceneDescription& description) const {
+  RuleIndex rules = ruleIndex();
+  return static_cast<std::size_t>(std::count_if(
+      description.allowed.begin(), description.allowed.end(),
+      [&](const AllowedPair& pair) { return pair.reason == kTouchLinks || rules.allowing(pair.body_a, pair.body_b); }));
+}
+
+std::string ChangingScene::weakened(const SceneDescription& description) const {
+  RuleIndex rules = ruleIndex();
+  std::size_t pairs = 0;
+  std::string first;
+  const auto uses_patterns = [&](const std::string& body) {
+    const auto object = objects_.find(body);
+    return object != objects_.end() &&
+           std::any_of(object->second.touch_links.begin(), object->second.touch_links.end(), isPattern);
+  };
+  for (const AllowedPair& pair : description.allowed) {
+    const bool by_pattern = pair.reason == kTouchLinks && (uses_patterns(pair.body_a) || uses_patterns(pair.body_b));
+    if (!by_pattern && !rules.allowing(pair.body_a, pair.body_b)) continue;
+    if (pairs++ == 0) first = pairName(pair.body_a, pair.body_b);
+  }
+  std::string text;
+  if (pairs > 0) text = "requests allow " + counted(pairs, "pair") + " to touch, for example " + first;
+  std::vector<std::string> changed;
+  for (const std::string& name : start_up_->objects)
+    if (hasChanged(name)) changed.push_back(name);
+  if (!changed.empty()) {
+    text += (text.empty() ? "requests have" : ", and have") + std::string(" removed, moved, replaced or attached ") +
+            counted(changed.size(), "object") + " of the parameters, for example " + changed.front();
+  }
+  return text;
 }
 
 std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {

@@ -44,13 +44,15 @@ void countTriangles(const BodyDescription& body, std::size_t& triangles) {
 
 }  // namespace
 
-ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first) {
+ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first,
+                             const RequestPermissions& permissions) {
   auto start_up = std::make_shared<StartUp>();
   start_up->robot = described.robot;
   start_up->tf_prefix = described.tf_prefix;
   start_up->fixed_frame = described.fixed_frame;
   start_up->tiles_begin = described.tiles_begin;
   start_up->rules = rules;
+  start_up->permissions = permissions;
   start_up->visual_only = first.visual_only;
   start_up->allowed = first.allowed;
   start_up->unreachable = described.unreachable;
@@ -68,9 +70,10 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
     if (!body.is_world) {
       start_up->links.push_back(body);
     } else if (!body.map.empty()) {
-      setTiles({body});  // the awaited map
+      setTiles({body}, nullptr);  // the awaited map
     } else {
       objects_[body.name] = {body, "", {}, {}, ++added_, true};
+      start_up->objects.push_back(body.name);
     }
   }
   start_up_ = start_up;
@@ -79,29 +82,58 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
 void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
   checkCancelled();
   if (change.type <= SceneChange::DETACH) requireName(change.object, "the object's name", sources.limits);
+  const RequestPermissions& permissions = start_up_->permissions;
   switch (change.type) {
     case SceneChange::ADD:
+      requireAddable(change.object, "ADD");
       return add(change, sources);
     case SceneChange::MOVE:
+      requireAllowed(permissions.move, "move", "MOVE");
+      permissions.requireUnprotected(change.object, "MOVE");
       return move(change);
     case SceneChange::REMOVE:
+      requireRemovable(change);
       return erase(change);
     case SceneChange::ATTACH:
+      requireAllowed(permissions.attach, "attach", "ATTACH");
+      if (objects_.count(change.object) > 0) permissions.requireUnprotected(change.object, "ATTACH");
       return attach(change, sources);
     case SceneChange::DETACH:
+      requireAllowed(permissions.attach, "attach", "DETACH");
+      permissions.requireUnprotected(change.object, "DETACH");
       return detach(change, sources);
     case SceneChange::ALLOW:
     case SceneChange::CHECK:
+      requireAllowed(permissions.rules, "rules", change.type == SceneChange::ALLOW ? "ALLOW" : "CHECK");
       return addRule(change, sources);
     case SceneChange::FORGET_RULES:
+      requireAllowed(permissions.rules, "rules", "FORGET_RULES");
       return rules_.clear();
     case SceneChange::LOAD:
       return load(change, sources);
     case SceneChange::CLEAR:
+      requireRemovable(change);
       return objects_.clear();
     default:
       refuse("unknown type " + std::to_string(change.type) + ", see SceneChange.msg");
   }
+}
+
+/// An object that replaces another one takes the place of what protected the robot there.
+void ChangingScene::requireAddable(const std::string& name, const std::string& what) const {
+  const RequestPermissions& permissions = start_up_->permissions;
+  if (objects_.count(name) == 0) return requireAllowed(permissions.add, "add", what + " of " + shownText(name));
+  requireAllowed(permissions.move, "move", what + " in place of " + shownText(name));
+  permissions.requireUnprotected(name, what);
+}
+
+/// @param change  REMOVE or CLEAR.
+void ChangingScene::requireRemovable(const SceneChange& change) const {
+  const bool is_clear = change.type == SceneChange::CLEAR;
+  const std::string what = is_clear ? "CLEAR" : "REMOVE";
+  requireAllowed(start_up_->permissions.clear, "clear", what);
+  for (const auto& [name, object] : objects_)
+    if (is_clear || matches(change.object, name)) start_up_->permissions.requireUnprotected(name, what);
 }
 
 void ChangingScene::set(BodyDescription body) {
@@ -194,7 +226,10 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
   if (change.touch_links.size() > sources.limits.rules)
     refuse("more than " + std::to_string(sources.limits.rules) + " touch_links");
-  for (const std::string& touched : change.touch_links) requireName(touched, "a touch_link", sources.limits);
+  for (const std::string& touched : change.touch_links) {
+    requireName(touched, "a touch_link", sources.limits);
+    requireNoneProtected(touched, "touch_links");
+  }
   const bool is_there = object.link == change.link && object.body.X_frame_B.matrix() == X_LB.matrix();
   if (!is_there) object.attached_since = change.header.stamp.isZero() ? sources.now : change.header.stamp;
   object.body.frame = link_frame;
@@ -222,21 +257,33 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   object.touch_links.clear();
 }
 
-bool ChangingScene::isAnyNamed(const std::string& pattern) const {
-  const auto is_named = [&](const BodyDescription& body) { return matches(pattern, body.name); };
-  return std::any_of(start_up_->links.begin(), start_up_->links.end(), is_named) ||
-         (tiles_ && std::any_of(tiles_->begin(), tiles_->end(), is_named)) ||
+/// The names of the scene's bodies that match a pattern; `visit` returns true to end.
+template <class Visit>
+bool ChangingScene::anyNamed(const std::string& pattern, const Visit& visit) const {
+  const auto is_found = [&](const BodyDescription& body) { return matches(pattern, body.name) && visit(body.name); };
+  return std::any_of(start_up_->links.begin(), start_up_->links.end(), is_found) ||
+         (tiles_ && std::any_of(tiles_->begin(), tiles_->end(), is_found)) ||
          std::any_of(objects_.begin(), objects_.end(),
-                     [&](const auto& object) { return is_named(object.second.body); });
+                     [&](const auto& object) { return is_found(object.second.body); });
+}
+
+void ChangingScene::requireNoneProtected(const std::string& pattern, const std::string& what) const {
+  if (start_up_->permissions.protected_bodies.empty()) return;
+  anyNamed(pattern, [&](const std::string& name) {
+    start_up_->permissions.requireUnprotected(name, what + " " + shownText(pattern));
+    return false;
+  });
 }
 
 void ChangingScene::addRule(const SceneChange& change, ChangeSources& sources) {
   const RequestLimits& limits = sources.limits;
   for (const auto& [pattern, what] : {std::pair(change.body_a, "body_a"), std::pair(change.body_b, "body_b")}) {
     requireName(pattern, what, limits);
-    if (!isAnyNamed(pattern)) sources.warnings.push_back("no body is named " + shownText(pattern) + ", yet");
+    if (change.type == SceneChange::ALLOW) requireNoneProtected(pattern, "ALLOW");
+    if (!anyNamed(pattern, [](const std::string&) { return true; }))
+      sources.warnings.push_back("no body is named " + shownText(pattern) + ", yet");
   }
-  const auto same = [&](const Rule& rule) {
+  const auto same = [&](const RequestRule& rule) {
     return namePair(rule.pair.a, rule.pair.b) == namePair(change.body_a, change.body_b);
   };
   rules_.erase(std::remove_if(rules_.begin(), rules_.end(), same), rules_.end());
@@ -252,6 +299,7 @@ void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {
     checkCancelled();
     requireName(object.name, "an object's name", sources.limits);
     requireUsableName(object.name);
+    requireAddable(object.name, "LOAD");
     const std::string frame = object.frame.empty() ? start_up_->fixed_frame : withoutLeadingSlash(object.frame);
     BodyDescription body = toBody(object, frame, loader, sources.warnings);
     if (!body.failure.empty()) refuse(body.failure);

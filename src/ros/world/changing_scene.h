@@ -9,8 +9,10 @@
 #include "model/name_pair.h"
 #include "ros/tf/tf_history.h"
 #include "ros/world/describe_scene.h"
+#include "ros/world/map_age.h"
 #include "ros/world/message_object.h"
 #include "ros/world/request_files.h"
+#include "ros/world/rule_index.h"
 
 namespace sdf_ccd {
 
@@ -29,18 +31,29 @@ struct ChangeSources {
 class ChangingScene {
  public:
   /// @param first  description of the scene that was built at start-up.
-  ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first);
+  ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first,
+                const RequestPermissions& permissions = {});
 
-  /// @throws std::exception with the reason; this object must then be discarded.
+  /// @throws std::exception with the reason, also if it is not permitted; this object must then be discarded.
   void apply(const SceneChange& change, ChangeSources& sources);
 
   /// Adds a body of the world as an object, or replaces the object of its name.
   void set(BodyDescription body);
 
   /// Replaces the tiles of the live map.
-  void setTiles(std::vector<BodyDescription> tiles) {
+  /// @param age  of the map; null if it never gets too old.
+  void setTiles(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age) {
     tiles_ = std::make_shared<const std::vector<BodyDescription>>(std::move(tiles));
+    map_age_ = std::move(age);
   }
+
+  /// Replaces them by those of another version of this scene.
+  void setTilesOf(const ChangingScene& other) {
+    tiles_ = other.tiles_;
+    map_age_ = other.map_age_;
+  }
+
+  const std::shared_ptr<MapAge>& mapAge() const { return map_age_; }
 
   /// The complete scene, to be built. @throws std::length_error if it exceeds the limits.
   SceneDescription description(const RequestLimits& limits) const;
@@ -49,6 +62,13 @@ class ChangingScene {
   std::vector<UnreachablePair> unreachable(const SceneDescription& description) const;
 
   std::vector<std::string> objects() const;
+
+  /// Number of the description's pairs that requests allow to touch, by rules or by touch_links.
+  std::size_t allowedByRequests(const SceneDescription& description) const;
+
+  /// What requests have taken from the checks, as a warning; empty if nothing. Touch_links that name each link are not
+  /// in it: every grasp has some.
+  std::string weakened(const SceneDescription& description) const;
 
   /// Per attached object: since when it is where it is on its link.
   std::map<std::string, ros::Time> attachedSince() const;
@@ -67,10 +87,6 @@ class ChangingScene {
     std::size_t order = 0;      // rank in the order in which objects were added
     bool is_unchanged = false;  // since start-up
   };
-  struct Rule {
-    PairRule pair;
-    bool is_allowed;
-  };
   struct StartUp;  // data that does not change: the links, and the pairs that were left out at start-up
 
   void add(const SceneChange& change, ChangeSources& sources);
@@ -79,23 +95,27 @@ class ChangingScene {
   void attach(const SceneChange& change, ChangeSources& sources);
   void detach(const SceneChange& change, ChangeSources& sources);
   void addRule(const SceneChange& change, ChangeSources& sources);
-  bool isAnyNamed(const std::string& pattern) const;
+  template <class Visit>
+  bool anyNamed(const std::string& pattern, const Visit& visit) const;
+  void requireNoneProtected(const std::string& pattern, const std::string& what) const;
   void load(const SceneChange& change, ChangeSources& sources);
+  void requireAddable(const std::string& name, const std::string& what) const;
+  void requireRemovable(const SceneChange& change) const;
 
   BodyDescription make(const SceneChange& change, ChangeSources& sources) const;
   std::string frameOf(const SceneChange& change, const std::string& fallback) const;
   void requireUsableName(const std::string& name) const;
   Object& find(const std::string& name);
-  static std::string textOf(const Rule& rule);
-  const Rule* lastRule(const std::string& a, const std::string& b) const;
+  RuleIndex ruleIndex() const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
   bool hasChanged(const std::string& body) const;
-  std::set<NamePair> keepAllowed(std::vector<AllowedPair>& allowed) const;
+  std::set<NamePair> keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const;
 
   std::shared_ptr<const StartUp> start_up_;
   std::map<std::string, Object> objects_;
   std::shared_ptr<const std::vector<BodyDescription>> tiles_;
-  std::vector<Rule> rules_;
+  std::shared_ptr<MapAge> map_age_;
+  std::vector<RequestRule> rules_;
   std::size_t added_ = 0;  // number of objects ever added
 };
 

@@ -9,6 +9,8 @@ struct ChangingScene::StartUp {
   std::shared_ptr<const RobotModel> robot;
   std::string tf_prefix, fixed_frame, tiles_begin;
   PairRules rules;
+  RequestPermissions permissions;
+  std::vector<std::string> objects;  // names
   std::vector<BodyDescription> links;
   std::set<std::string> link_names;  // of the robot, bodies or not
   std::vector<std::string> visual_only;

@@ -8,6 +8,7 @@
 #include "monitor/map/voxel_mask.h"
 #include "robot/unreachable_pairs.h"
 #include "ros/tf/tf_tracker.h"
+#include "ros/world/map_age.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd {
@@ -18,7 +19,9 @@ struct CheckedWorld {
   std::vector<UnreachablePair> unreachable;         ///< left out as long as tf agrees with the URDF
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::vector<TrackedBody> bodies;
-  double mask_error;  ///< maskError()
+  double mask_error;                    ///< maskError()
+  std::size_t allowed_by_requests = 0;  ///< pairs that requests allow to touch
+  std::shared_ptr<MapAge> map_age;      ///< of its live map; null if it has none, or one that never gets too old
 
   /// @param left_out  also pairs that rules of the user allow to touch.
   CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
