@@ -34,7 +34,7 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   constexpr std::size_t kMaxReasons = 65535;
   std::map<std::string, std::uint16_t> reasons;
   for (const LeftOut& left_out : scene.left_out) {
-    const auto& [text, depth] = left_out.reason;
+    const std::string& text = left_out.reason.text;
     if (!left_out.isPair()) {
       plan.parts_left_out.push_back(left_out.what());
       plan.part_reasons.push_back(text);
@@ -47,7 +47,7 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
     plan.left_out_a.push_back(static_cast<std::uint32_t>(left_out.body_a));
     plan.left_out_b.push_back(static_cast<std::uint32_t>(left_out.body_b));
     plan.left_out_reason.push_back(known->second);
-    plan.left_out_depth.push_back(depth);
+    plan.left_out_depth.push_back(left_out.reason.depth);
   }
   plan.pairs_of_objects = pairsOfObjects(scene.bodies);
   plan.visual_only = scene.visual_only;
