@@ -25,6 +25,12 @@ class MeshDistance {
   /// Lower bound of the distance [m], by the box around the mesh; −infinity within it.
   double lowerBound(const Vector3d& p_G) const;
 
+  /// Contains the solid that sample() measures.
+  AlignedBox3d box() const {
+    const Vector3d error = Vector3d::Constant(error_);
+    return {box_.min() - error, box_.max() + error};
+  }
+
   /// Guarantee: |s − value| ≤ error for the distance s from the mesh, as DistanceField::meshSample() says: the value is
   /// that of the solid that caps close, and the error large where it counts as inside that, or where a cap may be the
   /// nearest surface. If the sign of the mesh is not trusted (MeshQuality::sign_trusted) it holds for either sign of s,

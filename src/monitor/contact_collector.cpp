@@ -4,6 +4,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "body/union_depth.h"
 #include "field/opening_caps.h"
 #include "motion/time_at.h"
 #include "sdf_ccd/common/cancel.h"
@@ -66,6 +67,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
                            const ContactOptions& options, bool with_impulse) {
   bool have_poses = false;
   CancelTicks<> cancel;
+  solids_[shell_is_a ? 0 : 1] = &role.field();
   is_doubtful_ = role.field().inside_is_doubtful;
   position_error_ = std::max(position_error_, role.shell().position_error);
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
@@ -111,16 +113,18 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
         hits_.assign(listed_.begin() + done, listed_.begin() + std::min(done + kSomeHits, listed_.size()));
         integrate(input, options, with_impulse);
         impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;  // Eq. 6, 7; action = reaction
-        addHits(input, shell_is_a);
+        addHits(input, p, shell_is_a);
       }
-      if (in_groups && !groups_.groups().empty()) addGroups(input, shell, shell_is_a, weight, options, with_impulse);
+      if (in_groups && !groups_.groups().empty()) {
+        addGroups(input, p, shell, shell_is_a, weight, options, with_impulse);
+      }
     }
   }
 }
 
 /// Adds the points that are deep together: their impulse, and those that show where and how deep they are.
-void ContactCollector::addGroups(const ContactInput& input, const GroupedShell& shell, bool shell_is_a, double weight,
-                                 const ContactOptions& options, bool with_impulse) {
+void ContactCollector::addGroups(const ContactInput& input, std::size_t part, const GroupedShell& shell,
+                                 bool shell_is_a, double weight, const ContactOptions& options, bool with_impulse) {
   if (with_impulse) {
     const ContactInput centroids{input.field, groups_.shell(), input.path, input.X_CF, input.siblings};
     integrateContact(centroids, groups_.hits(), options, {true, false}, impulse_);
@@ -133,7 +137,7 @@ void ContactCollector::addGroups(const ContactInput& input, const GroupedShell& 
     impulse_.depths[g].reach = groups[g].reach;
     group_reach_ = std::max(group_reach_, groups[g].reach);
   }
-  addHits(input, shell_is_a);
+  addHits(input, part, shell_is_a);
 }
 
 /// Chords [first, first + size) of a path.
@@ -165,7 +169,7 @@ bool ContactCollector::needsErrors(const DistanceField& field) const {
 }
 
 /// Adds the hits that integrate() has processed.
-void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
+void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool shell_is_a) {
   const bool certain = !input.field.openings() && !is_doubtful_;
   CancelTicks<1024> cancel;
   for (std::size_t h = 0; h < hits_.size(); ++h) {
@@ -181,6 +185,7 @@ void ContactCollector::addHits(const ContactInput& input, bool shell_is_a) {
     Found found{shell_is_a ? 0 : 1,
                 hit.point,
                 {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}},
+                part,
                 needsErrors(input.field) ? nullptr : &input.field,
                 depth.p_F,
                 depth.reach};
@@ -310,6 +315,20 @@ void ContactCollector::setError(const Found& found, double reach, ContactPoint& 
   point.depth_error = std::max(point.depth_error, reach - point.depth) + position_error_;
 }
 
+/// Where parts of a body meet, a point may be deeper in it than in any of them.
+void ContactCollector::allowForUnions() {
+  CancelTicks<> cancel;
+  for (Found& found : found_) {
+    const Body& solid = *solids_[found.role];
+    if (solid.parts.size() < 2) continue;
+    cancel.check();
+    const BodyPart& part = solid.parts[found.part];
+    const double in_part = found.contact.depth + std::max(part.field.errorBound(), found.contact.depth_error);
+    const double in_union = boundOfUnionDepth(solid, part.X_BG * found.p_F, in_part);
+    if (in_union > in_part) found.reach = std::max(found.reach, in_union);
+  }
+}
+
 /// Adds the deepest point of each interval.
 void ContactCollector::addPeaks(PairResult& result) {
   if (found_.empty()) return;
@@ -336,6 +355,7 @@ void ContactCollector::finish(const CycleRequest& request, PairResult& result) {
   mergeIntervals(intervals_, tolerance());
   result.intervals = intervals_;
   join();
+  allowForUnions();
   const std::size_t listed = std::min(found_.size(), static_cast<std::size_t>(std::max(request.max_points, 0)));
   sortDeepest(std::max<std::size_t>(listed, 1));
   for (std::size_t i = 0; i < listed; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -56,6 +57,7 @@ class ContactCollector {
     int role;
     int point;
     ContactPoint contact;
+    std::size_t part;            // of the body with the field
     const DistanceField* field;  // to be queried for the depth's error later; null if the error is known
     Vector3d p_F;                // position in that field
     double reach;                // HitDepth::reach
@@ -70,14 +72,15 @@ class ContactCollector {
   const ChordPath& blockOf(const ChordPath& path, std::size_t first, std::size_t size);
   bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
                      std::size_t max_tested) const;
-  void addHits(const ContactInput& input, bool shell_is_a);
-  void addGroups(const ContactInput& input, const GroupedShell& shell, bool shell_is_a, double weight,
+  void addHits(const ContactInput& input, std::size_t part, bool shell_is_a);
+  void addGroups(const ContactInput& input, std::size_t part, const GroupedShell& shell, bool shell_is_a, double weight,
                  const ContactOptions& options, bool with_impulse);
   bool haveSharedPoint();
   void join();
   void joinWhereMany();
   static bool isDeeper(const Found& a, const Found& b);
   void sortDeepest(std::size_t count);
+  void allowForUnions();
   void addPeaks(PairResult& result);
   void setError(const Found& found, double reach, ContactPoint& point) const;
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
@@ -90,6 +93,7 @@ class ContactCollector {
   const CycleMotion* motion_ = nullptr;
   WaypointSpan span_;
   int body_a_ = -1, body_b_ = -1;
+  std::array<const Body*, 2> solids_{};  // with the fields, by role
   Vector3d p_WC_ = Vector3d::Zero();
   Wrench impulse_on_a_C_;
   Intervals intervals_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/union_depth.h"
 #include "body_half_space.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
@@ -87,6 +88,40 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
   mergeIntervals(intervals, 0.0);
 }
 
+/// Upper bound of the depth, during the step, of points of body p where parts of body f meet [m]; 0 if there are none.
+/// @param depth  of points in single parts, at most [m].
+double ContactRefinement::depthAtSeams(const StepMotion& step, double depth) const {
+  const Body& solid = scene_.bodies[step.f];
+  const std::vector<BodyPart>& parts = solid.parts;
+  const BoundingBall& ball = scene_.bodies[step.p].ball;
+  const Vector3d center_F = step.motion.X_FP(0.5) * ball.center;
+  const double reach = ball.radius + step.travel;
+  const auto isNear = [&](const BodyPart& part) {
+    return part.field.lowerBound(part.X_BG.inverse() * center_F) <= reach + depth;
+  };
+  const auto boxOf = [&](const BodyPart& part) {
+    const PartExtent extent = extentOf(part.X_BG, part.field);
+    AlignedBox3d box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.min()[axis] = -extent.farthest(-Vector3d::Unit(axis), false) - depth;
+      box.max()[axis] = extent.farthest(Vector3d::Unit(axis), false) + depth;
+    }
+    return box;
+  };
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!isNear(parts[i])) continue;
+    const AlignedBox3d box = boxOf(parts[i]);
+    for (std::size_t k = i + 1; k < parts.size(); ++k) {
+      if (!isNear(parts[k])) continue;
+      const AlignedBox3d both = box.intersection(boxOf(parts[k]));
+      if (both.isEmpty() || both.exteriorDistance(center_F) > reach) continue;
+      const auto extent = [&](std::size_t part) { return extentOf(parts[part].X_BG, parts[part].field); };
+      return std::min(greatestDepth(solid), boundOfUnionDepth(parts.size(), extent, center_F) + reach);
+    }
+  }
+  return 0.0;
+}
+
 /// @param error  of positions, without that of the search [m].
 void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const {
   DeepestSearch& search = memory.search;
@@ -100,14 +135,15 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
     for (std::size_t step = 0; step < relative.steps(); ++step) {
       const TwoBodyMotion motion = relative.motion(step);
       search.add(direction.surface, direction.solid, motion, relative.bounds(step).travel);
-      motions.push_back({direction.f, motion});
+      motions.push_back({direction.f, direction.p, motion, relative.bounds(step).travel});
     }
   }
   search.run(kMaxPieces);
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();
-    const auto& [f, motion] = motions[found.motion];
+    const int f = motions[found.motion].f;
+    const TwoBodyMotion& motion = motions[found.motion].motion;
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = timeAt(motion, found.s);
     point.p_W = X_WF * found.p_F;
@@ -121,6 +157,10 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   for (const int body : {result.body_a, result.body_b})
     if (counts && scene_.bodies[body].parts.empty())
       point.depth_error = std::max(point.depth_error, greatestDepth(scene_.bodies[body]) + error - point.depth);
+  // The search measures the depth in one part. Where parts meet, the body is deeper than that.
+  const double in_part = point.depth + point.depth_error;
+  for (const StepMotion& step : motions)
+    point.depth_error = std::max(point.depth_error, depthAtSeams(step, in_part) + error - point.depth);
   setTimes(result.intervals, point);
   if (point.depth > error) result.verdict = Verdict::kContact;
   result.deepest = point;

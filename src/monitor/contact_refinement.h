@@ -13,8 +13,9 @@ class ContactRefinement {
  public:
   /// A motion over one step, of a surface relative to the solid of body f.
   struct StepMotion {
-    int f;
+    int f, p;
     TwoBodyMotion motion;
+    double travel;  // of any point of p relative to f, at most [m]
   };
 
   /// Scratch memory of run().
@@ -47,6 +48,7 @@ class ContactRefinement {
   };
 
   void setBegin(const Interval& touch, const SurfacePair& surfaces, PairResult& result) const;
+  double depthAtSeams(const StepMotion& step, double depth) const;
   void findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const;
 
   const Scene& scene_;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "body/mesh_distance.h"
+#include "body/union_depth.h"
 #include "common/infinity.h"
 
 namespace sdf_ccd {
@@ -64,10 +65,11 @@ void dropUnused(MeshDistances& meshes) {
 /// One element of a body: a primitive, a mesh without a field, a field, or a box that contains what is not known.
 class NearestBodySearch::Element {
  public:
-  Element(const Isometry3d& X_BG, const AlignedBox3d& box) : X_GB_(X_BG.inverse()), source_(box) {}
-  Element(const Isometry3d& X_BG, DistanceField field) : X_GB_(X_BG.inverse()), source_(std::move(field)) {}
+  Element(const Isometry3d& X_BG, const AlignedBox3d& box) : X_BG_(X_BG), X_GB_(X_BG.inverse()), source_(box) {}
+  Element(const Isometry3d& X_BG, DistanceField field)
+      : X_BG_(X_BG), X_GB_(X_BG.inverse()), source_(std::move(field)) {}
   Element(const Isometry3d& X_BG, std::shared_ptr<const MeshDistance> mesh)
-      : X_GB_(X_BG.inverse()), source_(std::move(mesh)) {}
+      : X_BG_(X_BG), X_GB_(X_BG.inverse()), source_(std::move(mesh)) {}
 
   Vector3d toElement(const Vector3d& p_B) const { return X_GB_ * p_B; }
 
@@ -81,6 +83,12 @@ class NearestBodySearch::Element {
     return std::get<MeshDistancePointer>(source_)->lowerBound(p_G);
   }
 
+  PartExtent extent() const {
+    if (const auto* box = std::get_if<AlignedBox3d>(&source_)) return {X_BG_, *box};
+    if (const auto* field = std::get_if<DistanceField>(&source_)) return extentOf(X_BG_, *field);
+    return {X_BG_, std::get<MeshDistancePointer>(source_)->box()};
+  }
+
   /// Its gradient is in the frame of the body.
   FieldSample sample(const Vector3d& p_G) const {
     const auto* field = std::get_if<DistanceField>(&source_);
@@ -92,7 +100,7 @@ class NearestBodySearch::Element {
  private:
   using MeshDistancePointer = std::shared_ptr<const MeshDistance>;
 
-  Isometry3d X_GB_;
+  Isometry3d X_BG_, X_GB_;
   std::variant<DistanceField, MeshDistancePointer, AlignedBox3d> source_;
 };
 
@@ -148,6 +156,28 @@ bool NearestBodySearch::isIgnored(std::size_t body) const {
   return elements_[body].empty();
 }
 
+/// Upper bound of a point's depth in the union of a body's elements [m]; of one that is outside, minus infinity.
+double NearestBodySearch::greatestDepth(const std::vector<Element>& elements, const Vector3d& p_B) {
+  if (elements.size() < 2) return -kInfinity;
+  const auto lowOf = [&](const Element& element) {
+    const Vector3d p_G = element.toElement(p_B);
+    const double low = element.lowerBound(p_G);
+    if (low > 0.0 || element.isUnknown()) return low;
+    const FieldSample sample = element.sample(p_G);
+    return std::max(low, sample.value - sample.error);
+  };
+  double least = kInfinity;
+  for (const Element& element : elements) least = std::min(least, lowOf(element));
+  if (least > kTouchingParts) return -kInfinity;
+  const double depth = std::max(0.0, -least);
+  // If no other element is as near, the nearest location outside is that of this element.
+  const auto near = std::count_if(elements.begin(), elements.end(),
+                                  [&](const Element& element) { return lowOf(element) <= depth + kTouchingParts; });
+  if (near < 2) return -kInfinity;
+  return std::max(depth, boundOfUnionDepth(
+                             elements.size(), [&](std::size_t i) { return elements[i].extent(); }, p_B));
+}
+
 NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const {
   NearestBody nearest;
   nearest.distance = kInfinity;
@@ -166,6 +196,7 @@ NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, cons
       if (sample.value >= nearest.distance) continue;
       nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * sample.gradient};
     }
+    low = std::min(low, -greatestDepth(elements_[b], p_B));
   }
   if (nearest.body < 0) return {};
   // Another body with a larger error may in truth be nearer.

@@ -169,7 +169,9 @@ class Observer {
     const std::vector<JointPositions>& states = observed_[k].overlaps;
     return std::any_of(states.begin(), states.end(), [&](const JointPositions& state) {
       const PairResult& pair = tester.test(state, true).front();
-      return pair.deepest.depth - pair.deepest.depth_error > kTouch;
+      // Where parts of a body meet, the depth's error is large, as it may be deeper, but it is no less deep by more than
+      // the error of a field.
+      return pair.deepest.depth - std::min(pair.deepest.depth_error, pair.contact_error.total()) > kTouch;
     });
   }
 

@@ -57,7 +57,8 @@ struct ContactPoint {
   double depth = 0.0;  ///< [m]
   /// Of the depth [m], from the field at this point: mostly less than ErrorBound::field. Beyond the band the point may
   /// get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and they
-  /// are no deeper than this.
+  /// are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the body may
+  /// be deeper by up to this, but is never less deep by more than the field's error.
   double depth_error = 0.0;
   Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B

@@ -12,7 +12,8 @@ namespace sdf_ccd {
 
 /// Distance from a point to the nearest body at given poses; for the point queries. For a mesh with openings, the error
 /// covers that the point may be on either side, and that the nearest surface may be a cap: see
-/// DistanceField::meshSample().
+/// DistanceField::meshSample(). Within a body of several elements, the distance and its gradient are those of one
+/// element; where elements meet, the surface of the body is farther away, and the error covers that.
 struct NearestBody {
   int body = -1;          ///< -1 if no body is known
   double distance = 0.0;  ///< [m], negative inside
@@ -50,6 +51,8 @@ class NearestBodySearch {
 
  private:
   class Element;
+
+  static double greatestDepth(const std::vector<Element>& elements, const Vector3d& p_B);
 
   std::shared_ptr<const Scene> scene_;
   std::shared_ptr<const SceneDescription> description_;

@@ -1,0 +1,162 @@
+// Bodies of several parts that meet: the surface of one part may lie within another, so that the body is deeper there
+// than its parts. Errors must cover the depth in the union.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "body/body_options.h"
+#include "body/union_depth.h"
+#include "oracle/box_union.h"
+#include "oracle/scene_case.h"
+#include "sdf_ccd/monitor/nearest_body.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+enum class As { kPrimitives, kMeshes };
+
+BodyDescription bodyOf(const std::string& name, const std::vector<OrientedBox>& boxes, As as) {
+  BodyDescription all;
+  all.name = all.frame = name;
+  for (const OrientedBox& box : boxes) {
+    const Shape shape = as == As::kMeshes ? meshShape(boxMesh(box.half_size)) : Shape(Primitive(Box{box.half_size}));
+    all.geometry.push_back({shape, box.X_WB, name});
+  }
+  return all;
+}
+
+/// A unit cube beside another, which share a face.
+std::vector<OrientedBox> twoCubes() {
+  return {boxAt({-0.5, 0, 0}, {0.5, 0.5, 0.5}), boxAt({0.5, 0, 0}, {0.5, 0.5, 0.5})};
+}
+
+/// An L of three boxes that share faces, and one beside them that touches none.
+std::vector<OrientedBox> stairs() {
+  return {boxAt({0, 0, 0}, {0.3, 0.2, 0.1}), boxAt({0.4, 0, 0.1}, {0.1, 0.2, 0.2}),
+          boxAt({0, 0, 0.15}, {0.3, 0.1, 0.05}), boxAt({1.2, 0, 0}, {0.1, 0.1, 0.1})};
+}
+
+/// Queries random points in a cube, some of them very near to the plane x = 0.3 or x = 0.
+void expectErrorsCoverTheUnion(const std::vector<OrientedBox>& boxes, As as, bool has_field, double half) {
+  std::vector<BodyDescription> bodies{bodyOf("parts", boxes, as)};
+  if (has_field) bodies.push_back(body("ball", Primitive(Sphere{0.05})));
+  const SceneDescription description{bodies, {}};
+  const auto scene = build(description, fine(0.05));
+  NearestBodySearch search(scene, std::make_shared<const SceneDescription>(description));
+  ASSERT_EQ(search.prepare(0), "");
+  const Isometry3d X_WB = pose({0.1, -0.2, 0.3}, 0.7, Vector3d(1, 2, -1).normalized());
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-half, half);
+  int inside = 0, exact = 0;
+  for (int i = 0; i < 1500; ++i) {
+    Vector3d p(coordinate(random), coordinate(random), coordinate(random));
+    if (i % 4 == 0) p.x() = (i % 8 == 0 ? 0.3 : 0.0) + 1e-6;
+    const double truth = distanceToUnion(boxes, p);
+    const NearestBody nearest = search.nearest({X_WB, Isometry3d::Identity()}, X_WB * p);
+    ASSERT_LE(std::abs(nearest.distance - truth), nearest.error + 1e-9)
+        << p.transpose() << ": " << nearest.distance << " +- " << nearest.error << ", true " << truth;
+    if (truth > 0.0 && as == As::kPrimitives) EXPECT_LT(nearest.error, 1e-9);  // outside nothing changes
+    inside += truth < -1e-3;
+    exact += truth < -1e-3 && nearest.error < 1e-9;
+  }
+  EXPECT_GT(inside, 50);
+  if (as == As::kPrimitives)
+    EXPECT_GT(exact, inside / 20);  // away from the faces where parts meet the error is a part's
+}
+
+TEST(UnionDepth, ErrorsOfPointsCoverTwoCubes) {
+  expectErrorsCoverTheUnion(twoCubes(), As::kPrimitives, true, 1.1);
+  expectErrorsCoverTheUnion(twoCubes(), As::kPrimitives, false, 1.1);
+}
+
+TEST(UnionDepth, ErrorsOfPointsCoverTwoMeshes) {
+  expectErrorsCoverTheUnion(twoCubes(), As::kMeshes, true, 1.1);
+  expectErrorsCoverTheUnion(twoCubes(), As::kMeshes, false, 1.1);
+}
+
+TEST(UnionDepth, ErrorsOfPointsCoverStairs) {
+  expectErrorsCoverTheUnion(stairs(), As::kPrimitives, true, 0.55);
+  expectErrorsCoverTheUnion(stairs(), As::kMeshes, true, 0.55);
+}
+
+/// One centimetre from the face that they share it is half a metre deep.
+TEST(UnionDepth, APointBesideASeam) {
+  const SceneDescription description{{bodyOf("parts", twoCubes(), As::kPrimitives)}, {}};
+  NearestBodySearch search(build(description), std::make_shared<const SceneDescription>(description));
+  search.prepare(0);
+  const NearestBody nearest = search.nearest({Isometry3d::Identity()}, {0.01, 0, 0});
+  EXPECT_GE(nearest.error, 0.49);
+  EXPECT_LE(nearest.error, 0.491);  // the way out is half a metre
+  EXPECT_LT(search.nearest({Isometry3d::Identity()}, {0.7, 0, 0.45}).error, 1e-9);
+}
+
+/// A half-space and a post on it have no box; the way out is along the normal, or none is known.
+TEST(UnionDepth, AHalfSpaceWithAPost) {
+  BodyDescription all = body("ground", ground());
+  all.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.5}}), translation({0, 0, 0.5}), "post"});
+  const SceneDescription description{{all}, {}};
+  NearestBodySearch search(build(description), std::make_shared<const SceneDescription>(description));
+  search.prepare(0);
+  const NearestBody below = search.nearest({Isometry3d::Identity()}, {0, 0, -0.01});
+  EXPECT_NEAR(below.distance, -0.01, 1e-9);
+  EXPECT_GE(below.error, std::hypot(0.1, 0.01) - 0.01);  // the truth: the nearest free place beside the post
+  EXPECT_LE(below.error, 1.001);
+  EXPECT_LT(search.nearest({Isometry3d::Identity()}, {5, 0, -0.01}).error, 1e-9);
+}
+
+/// A blade 0.4 mm thick, 30 mm deep in a block of two boxes, at the face that they share and beside it.
+TEST(UnionDepth, ABladeAtASeam) {
+  const std::vector<OrientedBox> halves = {boxAt({-0.05, 0, 0}, {0.05, 0.1, 0.1}),
+                                           boxAt({0.05, 0, 0}, {0.05, 0.1, 0.1})};
+  constexpr double kDepth = 0.03;
+  BodyOptions options = optionsForContacts();
+  options.exact_depths = true;
+  for (const As as : {As::kPrimitives, As::kMeshes}) {
+    const auto scene =
+        build({bodyOf("block", halves, as), body("blade", Primitive(Box{{0.0002, 0.025, 0.025}}))}, options);
+    for (const Refinement refine : {Refinement::kNone, Refinement::kDeepest})
+      for (const double x : {0.0, 0.001, 0.02}) {
+        Monitor monitor(scene, soft());
+        CycleRequest request;
+        request.max_points = 1000;
+        request.refine = refine;
+        const Isometry3d X_WP = translation({x, 0.003, 0.1 - kDepth + 0.025});
+        const PairResult pair =
+            monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X_WP)}), request).pairs.front();
+        EXPECT_EQ(pair.verdict, Verdict::kContact);
+        const ContactPoint& deepest = pair.deepest;
+        const double rounding = 1e-6 + pair.contact_error.total();
+        EXPECT_GE(deepest.depth + deepest.depth_error, kDepth - 1e-6) << x << ": " << deepest.depth;
+        EXPECT_LE(deepest.depth, kDepth + rounding) << x;
+        for (const ContactPoint& point : pair.points) {
+          const double truth = -distanceToUnion(halves, point.p_W);
+          ASSERT_LE(std::abs(point.depth - truth), point.depth_error + 1e-6) << point.p_W.transpose();
+        }
+      }
+  }
+}
+
+/// Parts that do not meet are as before.
+TEST(UnionDepth, PartsApartHaveTheErrorsOfOne) {
+  const std::vector<OrientedBox> apart = {boxAt({-0.3, 0, 0}, {0.1, 0.1, 0.1}), boxAt({0.3, 0, 0}, {0.1, 0.1, 0.1})};
+  BodyOptions options = optionsForContacts();
+  options.exact_depths = true;
+  const auto scene = build({bodyOf("block", apart, As::kPrimitives), body("ball", Primitive(Sphere{0.05}))}, options);
+  for (const Refinement refine : {Refinement::kNone, Refinement::kDeepest}) {
+    Monitor monitor(scene, soft());
+    CycleRequest request;
+    request.refine = refine;
+    const PairResult pair =
+        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0.3, 0, 0.14}))}), request)
+            .pairs.front();
+    EXPECT_EQ(pair.verdict, Verdict::kContact);
+    EXPECT_LT(pair.deepest.depth_error, 1e-3);
+    EXPECT_NEAR(pair.deepest.depth, 0.01, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace sdf_ccd
