@@ -53,7 +53,7 @@ void Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, cons
     }
   }
   if (!is_decided)
-    checkers[i].postpone(motion, *bodies, schedule->leftClearance(due), pair_memory, result.pairs[i]);
+    checkers[i].postpone(motion, *bodies, schedule->leftClearance(due), request.margin, pair_memory, result.pairs[i]);
 }
 
 /// All threads take pairs from one queue, so that the most urgent ones are done first: verdicts, then what is missing of

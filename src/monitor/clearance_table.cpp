@@ -167,6 +167,7 @@ struct ScanArrays {
   float* slack;
   const float* error;
   const float* soon;
+  float margin;
 };
 
 /// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget,
@@ -197,7 +198,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
       const BesideResting one(s.rows + block.rows_a);
       const float travel = one.travelBeside(group), error = one.poseErrorBeside(group);
       const float path = travel > 0.0F ? (block.path + travel) * kUpwards : block.path;
-      if (budgetAfter(block.least, path) > error + kSoon * travel) {  // false for NaN
+      if (budgetAfter(block.least, path) > error + s.margin + kSoon * travel) {  // false for NaN
         block.path = path;
         if (block.error + error > waiting.error) waiting = {block.error + error, block.worst, -1};
         continue;
@@ -214,12 +215,13 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     if (add_spent) travel = (travel + load(s.spent + at)) * kUpwards;
     const Floats left = has_pair ? budgetAfter(budget, travel) : budget;
     const Floats error = poseErrorOf(a, b);
-    const Ints is_quiet = left > error;  // false for NaN
+    const Floats needed = error + s.margin;
+    const Ints is_quiet = left > needed;  // false for NaN
     store(is_quiet ? left : budget, s.budget + at);
-    store(left - error, s.slack + at);
+    store(left - needed, s.slack + at);
     const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
     error_bound.take(bound, i);
-    overdue.take(is_quiet ? load(s.soon + at) * travel - (left - error) : zero, i);
+    overdue.take(is_quiet ? load(s.soon + at) * travel - (left - needed) : zero, i);
     const bool all_quiet = allTrue(is_quiet | ~has_pair);
     due_blocks[found] = i;
     found += all_quiet ? 0 : 1;
@@ -378,12 +380,13 @@ void ClearanceTable::advance(const BodyTwists& bodies) {
   has_spent_ = true;
 }
 
-SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due) {
+SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePair>& due, double margin) {
   due.clear();
   if (blocks_.empty()) return {};
   std::size_t count = 0;
   SkippedPairs quiet = scanPairs({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), budget_.data(),
-                                  spent_.data(), slack_.data(), error_.data(), soon_.data()},
+                                  spent_.data(), slack_.data(), error_.data(), soon_.data(),
+                                  static_cast<float>(margin) * kUpwards},
                                  has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;

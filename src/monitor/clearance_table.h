@@ -99,7 +99,8 @@ class ClearanceTable {
   /// The same for the last step. Pairs are due if their budget is used up, or if one of their bodies is not followed;
   /// their budgets stay as they were at the cycle's start.
   /// @param due  receives the due pairs, the most urgent first; its memory is reused.
-  SkippedPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due);
+  /// @param margin  what must be left of a budget [m].
+  SkippedPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due, double margin = 0.0);
 
  private:
   std::size_t slot(int pair) const { return static_cast<std::size_t>(slots_[static_cast<std::size_t>(pair)]); }

@@ -77,7 +77,7 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (!piece.intervals.empty() && (piece.refined || piece.deepest.depth > 0.0)) {
     known.reach = std::max(known.reach, piece.deepest.depth + piece.deepest.depth_error);
   } else if (piece.intervals.empty() && piece.verdict == Verdict::kUncertain) {
-    known.near = std::max(known.near, piece.error.total());
+    known.near = std::max(known.near, piece.error.total() + margin_);
   }
   for (const Interval& interval : piece.intervals) {
     const bool goes_on = !pair.intervals.empty() && interval.enter <= kAtEnd * length &&

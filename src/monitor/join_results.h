@@ -15,7 +15,8 @@ namespace sdf_ccd {
 class ResultJoiner {
  public:
   /// @param max_points  upper bound of the contact points listed per pair.
-  explicit ResultJoiner(int max_points) : max_points_(max_points) {}
+  /// @param margin      CycleRequest::margin of all pieces [m].
+  explicit ResultJoiner(int max_points, double margin = 0.0) : max_points_(max_points), margin_(margin) {}
 
   /// @param motion  the piece; it begins where the last one ended, and every pair was checked over all of it.
   void add(const CycleMotion& motion, const CycleResult& result);
@@ -40,6 +41,7 @@ class ResultJoiner {
   Vector3d shift(int body, const CycleMotion& motion) const;
 
   int max_points_;
+  double margin_;  // [m]
   CycleResult joined_;  // wrenches hold impulses; times are from the start of the motion
   std::vector<Known> known_;
   CycleMotion ends_;

@@ -16,6 +16,12 @@
 namespace sdf_ccd {
 namespace {
 
+void requireMargin(double margin) {
+  if (margin >= 0.0 && margin <= kLargestMargin) return;
+  throw std::invalid_argument("a margin must be from 0 to " + numberText(kLargestMargin) + " m, not " +
+                              numberText(margin) + " m");
+}
+
 std::vector<ContactCollector::BodyData> bodyDataOf(const Scene& scene) {
   std::vector<ContactCollector::BodyData> data(scene.bodies.size());
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -110,8 +116,9 @@ Monitor::Impl::Clock::time_point Monitor::Impl::endOf(const CycleRequest& reques
 const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = Clock::now();
   validate(motion, shape, "cycle motion");
+  requireMargin(request.margin);
   try {
-    schedule->take(motion, checkers);
+    schedule->take(motion, request.margin, checkers);
     takeSpans(motion);
     takeSkipped(request);
     checkDue(motion, request, start);

@@ -63,11 +63,21 @@ void PairChecker::run(const CycleMotion& motion, const SweptBodies& bodies, cons
   const CancelScope scope(memory.deadline);
   try {
     check(motion, bodies, request, result);
+    takeOff(request.margin, result);
   } catch (const std::exception& error) {
     forget();
     clear(result);
     setNotChecked(error.what(), result);
   }
+}
+
+/// Takes the margin off what check() has set with it.
+void PairChecker::takeOff(double margin, PairResult& result) const {
+  if (!(margin > 0.0)) return;
+  result.error.chord = std::max(0.0, result.error.chord - margin);
+  if (result.contact_error.total() > 0.0)
+    result.contact_error.chord = std::max(0.0, result.contact_error.chord - margin);
+  if (result.verdict == Verdict::kClear) result.clearance += margin;
 }
 
 void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
@@ -131,7 +141,7 @@ void PairChecker::setError(const ErrorBound& bound, double root, PairResult& res
 void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                         PairResult& result) {
   setMotion(bodies, result.span);
-  const double given_error = givenError(motion, relativeMotion());
+  const double given_error = givenError(motion, relativeMotion()) + request.margin;
   motion_error_ += given_error;
   setError(bound(), surfaces_ ? 0.0 : kRootTolerance * travel_, result);
   const double margin = this->margin() + result.error.chord + result.error.root;

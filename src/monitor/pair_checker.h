@@ -50,9 +50,10 @@ class PairChecker {
   /// Leaves the pair untested, over a span that is not empty: UNCERTAIN, or CLEAR if the bodies' balls stay apart.
   /// @param clearance  lower bound of the bodies' distance over the whole span [m]; if negative, its amount bounds
   /// their overlap; −∞ if nothing is known.
+  /// @param margin  as CycleRequest::margin.
   /// @param memory  used by this call alone.
-  void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
-                PairResult& result);
+  void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, double margin,
+                PairMemory& memory, PairResult& result);
 
   /// Whether measure() can find anything.
   bool isMeasurable() const { return surfaces_.has_value(); }
@@ -98,6 +99,7 @@ class PairChecker {
     int attempts;
   };
 
+  void takeOff(double margin, PairResult& result) const;
   void forgetClearance() {
     clearance_ = kUnknown;
     outside_ = false;
@@ -149,7 +151,9 @@ class PairChecker {
 
   // Of this cycle:
   double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]
-  double motion_error_ = 0.0;     // of the given motion, and of computing with its poses [m]
+  /// Of the given motion, and of computing with its poses; during a check plus CycleRequest::margin, which counts like
+  /// an error there [m].
+  double motion_error_ = 0.0;
   bool is_to_complete_ = false;   // complete() is to follow
   PairMemory* memory_ = nullptr;  // during a call
 };

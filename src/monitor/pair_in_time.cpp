@@ -9,8 +9,8 @@
 
 namespace sdf_ccd {
 
-void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, PairMemory& memory,
-                           PairResult& result) {
+void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, double margin,
+                           PairMemory& memory, PairResult& result) {
   memory_ = &memory;
   clear(result);
   if (!canBeChecked(motion, bodies, result)) return;
@@ -29,7 +29,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   motion_error_ += givenError(motion, roles_.front().motion());
   result.error = bound();
   result.error.chord = motion_error_;
-  if (balls_contain_bodies_ && apart > margin() + motion_error_) {
+  if (balls_contain_bodies_ && apart > this->margin() + motion_error_ + margin) {
     remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
     setClear(apart, result);
     result.skipped = outside_ = true;

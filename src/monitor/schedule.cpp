@@ -44,7 +44,8 @@ void Schedule::findWhole(const CycleMotion& motion) {
   }
 }
 
-const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, std::vector<PairChecker>& checkers) {
+const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double margin,
+                                           std::vector<PairChecker>& checkers) {
   findWhole(motion);
   bodies_.begin(motion, is_whole_);
   for (std::size_t i = 0; i < checkers.size() && !all_whole_; ++i) {
@@ -57,7 +58,7 @@ const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, std::vecto
     if (k > 0) bodies_.step(motion, k);
     if (k + 1 < steps) table_.advance(bodies_);
   }
-  quiet_ = table_.finish(bodies_, due_);
+  quiet_ = table_.finish(bodies_, due_, margin);
   for (const DuePair& due : due_) handOver(motion, due.pair, checkers[static_cast<std::size_t>(due.pair)]);
   return due_;
 }

@@ -20,8 +20,8 @@ class Schedule {
   /// @param checkers  one per pair of the scene.
   Schedule(const Scene& scene, const std::vector<PairChecker>& checkers);
 
-  /// Processes a cycle's motion. @return the due pairs, the most urgent first.
-  const std::vector<DuePair>& take(const CycleMotion& motion, std::vector<PairChecker>& checkers);
+  /// Processes a cycle's motion. @param margin  as CycleRequest::margin. @return the due pairs, the most urgent first.
+  const std::vector<DuePair>& take(const CycleMotion& motion, double margin, std::vector<PairChecker>& checkers);
 
   /// Whether all pairs are checked over the whole cycle that was processed last.
   bool isAllWhole() const { return all_whole_; }

@@ -106,16 +106,4 @@ PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved)
   return result;
 }
 
-PlannedMotion withMargin(PlannedMotion motion, double margin) {
-  if (!(margin >= 0.0) || !(margin <= kLargestMargin))
-    refusePlan("a margin must be from 0 to " + numberText(kLargestMargin) + " m, not " + numberText(margin) + " m");
-  if (margin == 0.0) return motion;
-  motion.piece = [piece = std::move(motion.piece), margin](std::size_t first, std::size_t last, CycleMotion& result) {
-    piece(first, last, result);
-    result.motion_error.resize(result.X_WB.size(), 0.0);
-    for (double& error : result.motion_error) error += 0.5 * margin;
-  };
-  return motion;
-}
-
 }  // namespace sdf_ccd

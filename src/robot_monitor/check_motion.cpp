@@ -74,7 +74,7 @@ MotionCheck::MotionCheck(std::shared_ptr<const Scene> scene, const MonitorOption
     : impl_(new Impl{motion,
                      Monitor(std::move(scene), options, std::move(memory)),
                      request,
-                     ResultJoiner(request.max_points),
+                     ResultJoiner(request.max_points, request.margin),
                      {},
                      0}) {}
 
@@ -119,6 +119,7 @@ class MotionChecker {
     request_.wrenches = false;
     request_.contacts = false;
     request_.skipped_pairs = false;
+    request_.margin = wanted.margin;
   }
 
   /// Without MotionVerdict::pairs.
@@ -204,7 +205,7 @@ class MotionChecker {
   }
 
   void add(const CycleResult& result, MotionVerdict& found) const {
-    found.error_bound = std::max(found.error_bound, result.error_bound - wanted_.margin);
+    found.error_bound = std::max(found.error_bound, result.error_bound);
     found.verdict = worseOf(found.verdict, result.verdict);
   }
 
@@ -247,7 +248,7 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
         checkCancelled();
         for (std::size_t k = 0; k < request.tolerances.size(); ++k) {
           const bool lists = request.list_pairs && k + 1 == request.tolerances.size();
-          const PlannedMotion motion = withMargin(motionOf(i, request.tolerances[k]), request.margin);
+          const PlannedMotion motion = motionOf(i, request.tolerances[k]);
           verdicts[i] = lists ? looker->list(motion) : looker->look(motion);
           if (verdicts[i].verdict == Verdict::kClear) break;
         }

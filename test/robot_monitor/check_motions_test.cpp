@@ -149,7 +149,9 @@ TEST_F(CheckMotionsTest, ListedPairsAreThoseOfTheMotionAlone) {
     const std::vector<MotionVerdict> verdicts = check(all, request);
     std::size_t listed = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const CycleResult alone = checkMotion(scene_, {}, withMargin(motionOf(*scene_, {all[i][0], all[i][1]}), margin));
+      CycleRequest of_one;
+      of_one.margin = margin;
+      const CycleResult alone = checkMotion(scene_, {}, motionOf(*scene_, {all[i][0], all[i][1]}), of_one);
       ASSERT_EQ(verdicts[i].verdict, alone.verdict) << i;
       std::size_t not_clear = 0;
       for (const PairResult& pair : alone.pairs) {

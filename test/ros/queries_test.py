@@ -121,6 +121,8 @@ class QueriesTest(MonitorCase):
             answer = self.query_motion(request)
             self.assertEqual(answer.verdict, verdict)
             self.assertLess(answer.error_bound, 0.01)
+            self.assertEqual(answer.margin, margin)
+            self.assertTrue(all(pair.error_bound < 0.01 for pair in answer.pairs))
         request.margin = -1.0
         self.assertFalse(self.query_motion(request).success)
         request.margin, request.interpolation = 0.0, 7
@@ -149,7 +151,10 @@ class QueriesTest(MonitorCase):
         self.assertEqual(answer.times[1], answer.pair_times[0])
         request.list_pairs = False
         request.margin = 0.2
-        self.assertEqual(list(bytearray(query(request).verdicts))[0], QueryMotionResponse.UNCERTAIN)
+        answer = query(request)
+        self.assertEqual(list(bytearray(answer.verdicts))[0], QueryMotionResponse.UNCERTAIN)
+        self.assertEqual(answer.margin, 0.2)
+        self.assertLess(max(answer.error_bounds), 0.01)
         request.motions[3].joint_trajectory.points[1].positions = [5.0]
         answer = query(request)
         self.assertFalse(answer.success)

@@ -13,6 +13,9 @@
 
 namespace sdf_ccd {
 
+/// Beyond it, rounding of the sum of margin and error bound would count [m].
+constexpr double kLargestMargin = 1000.0;
+
 /// How contacts are measured beyond what fields and shells give.
 enum class Refinement {
   kNone,
@@ -44,6 +47,10 @@ struct CycleRequest {
   double max_time = 0.0;
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
+
+  /// Only pairs that stay farther apart than this are CLEAR [m]; those that come closer are UNCERTAIN, and so are
+  /// contacts that are less deep. Error bounds do not contain it. From 0 to kLargestMargin.
+  double margin = 0.0;
 
   /// Whether contacts are computed, for themselves or for something else.
   bool wantsContacts() const { return contacts || wrenches || max_points > 0; }

@@ -132,18 +132,10 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
 
 /// The motion of all bodies through given poses, at the motion's times; each takes the shorter rotation between two.
 /// @param is_moved  per body: whether its poses come from the plan, not from the robot's joints. Two bodies of which
-/// neither is moved, and which the scene leaves out as out of reach or rigidly joined, are taken to be where the robot's
-/// joints can have them.
+/// neither is moved, and which the scene leaves out as out of reach or rigidly joined, are taken to be where the
+/// robot's joints can have them.
 /// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, two
 /// poses of a body leave the direction of its rotation open (kAmbiguousTurn), or a body moves that is said not to.
 PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved);
-
-/// Beyond it, rounding of the sum of margin and error bound would count [m].
-constexpr double kLargestMargin = 1000.0;
-
-/// The same motion with a margin: only pairs that stay farther apart than it are CLEAR. It counts as motion error, also
-/// in the error bound. Pairs that come closer are UNCERTAIN, as are contacts less deep than the margin.
-/// @throws std::invalid_argument unless the margin [m] is between 0 and kLargestMargin.
-PlannedMotion withMargin(PlannedMotion motion, double margin);
 
 }  // namespace sdf_ccd

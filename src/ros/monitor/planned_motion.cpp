@@ -233,7 +233,7 @@ PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const Planned
   }
   const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
   if (has_joints == !request.poses.empty()) refuse("give either trajectories or poses of links, and not both");
-  return withMargin(has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned), request.margin);
+  return has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned);
 }
 
 }  // namespace sdf_ccd

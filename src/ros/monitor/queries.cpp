@@ -239,6 +239,7 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   CycleRequest wanted;
   wanted.max_points = max_points_;
   wanted.refine = refine_;
+  wanted.margin = request.margin;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (marker_publisher_ && marker_publisher_.getNumSubscribers() > 0)
@@ -257,7 +258,8 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
     response.assumed_positions.push_back(joint.position);
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
-  response.error_bound = std::max(0.0, result.error_bound - request.margin);
+  response.error_bound = result.error_bound;
+  response.margin = request.margin;
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(
       result, context, [](const PairResult&) { return true; }, response.pairs);
@@ -312,6 +314,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
     requireAtMost(limits_.pairs, response.pair_motions.size(), "listed pairs");
   }
+  response.margin = request.margin;
   response.message = notes.text();
 }
 

@@ -1,0 +1,121 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "oracle/scene_case.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
+
+namespace sdf_ccd {
+namespace {
+
+using namespace test;
+
+/// A ball of 0.1 m moves at a height above something that fills z <= 0, at a distance from its origin.
+CycleResult slide(const BodyDescription& below, double height, double far, double margin) {
+  const auto scene = build({body("ball", Primitive(Sphere{0.1})), below});
+  CycleMotion motion;
+  motion.times = {0.0, 1.0};
+  motion.X_WB = {{translation({far, 0, height + 0.1}), translation({far, 1, height + 0.1})},
+                 {Isometry3d::Identity()}};
+  CycleRequest request;
+  request.margin = margin;
+  return checkMotion(scene, {}, planThrough(motion, {true, false}), request);
+}
+
+/// The same of two motions of a planner, one of which is as above.
+MotionVerdict slideAmongMany(const BodyDescription& below, double height, double far, double margin) {
+  const auto scene = build({body("ball", Primitive(Sphere{0.1})), below});
+  MotionsRequest request;
+  request.margin = margin;
+  return checkMotions(
+             scene, {}, 2,
+             [&](std::size_t i, double) {
+               CycleMotion motion;
+               motion.times = {0.0, 1.0};
+               const double at = height + 0.1 + double(i);
+               motion.X_WB = {{translation({far, 0, at}), translation({far, 1, at})}, {Isometry3d::Identity()}};
+               return planThrough(motion, {true, false});
+             },
+             request)
+      .at(0);
+}
+
+BodyDescription plane() {
+  return body("below", ground(), true);
+}
+BodyDescription block() {
+  BodyDescription block = body("below", Primitive(Box{{1.5, 1.5, 0.5}}), true);
+  block.geometry[0].X_BG = translation({0, 0, -0.5});
+  return block;
+}
+
+/// A margin is a distance, not a tilt of the plane about its origin.
+TEST(Margin, HoldsFarFromAPlanesOrigin) {
+  for (const double far : {0.0, 10.0, 1000.0}) {
+    EXPECT_EQ(slide(plane(), 0.052, far, 0.05).verdict, Verdict::kClear) << far;
+    EXPECT_EQ(slide(plane(), 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+    EXPECT_EQ(slide(plane(), -0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+    EXPECT_EQ(slide(plane(), -0.052, far, 0.05).verdict, Verdict::kContact) << far;
+    EXPECT_EQ(slideAmongMany(plane(), 0.052, far, 0.05).verdict, Verdict::kClear) << far;
+    EXPECT_EQ(slideAmongMany(plane(), 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+  }
+}
+
+TEST(Margin, IsInNoErrorBound) {
+  for (const BodyDescription& below : {plane(), block()}) {
+    for (const double height : {3.0, 0.052, 0.03, 0.01, -0.03, -0.08}) {
+      const CycleResult with = slide(below, height, 0.0, 0.05), without = slide(below, height, 0.0, 0.0);
+      EXPECT_LT(with.error_bound, 2e-3) << height;
+      ASSERT_EQ(with.pairs.size(), 1U);
+      EXPECT_LT(with.pairs[0].error.total(), 2e-3) << height;
+      if (with.verdict == without.verdict) {
+        EXPECT_NEAR(with.error_bound, without.error_bound, 1e-9) << height;
+      }
+      const MotionVerdict among = slideAmongMany(below, height, 0.0, 0.05);
+      EXPECT_EQ(among.verdict, with.verdict) << height;
+      EXPECT_LT(among.error_bound, 2e-3) << height;
+    }
+  }
+}
+
+/// The second cycle of a pair is decided by what is left of its clearance.
+TEST(Margin, HoldsForPairsThatAreNotTestedAgain) {
+  const auto scene = build({body("ball", Primitive(Sphere{0.1})), block()});
+  Monitor monitor(scene, {});
+  const auto at = [&](double height) {
+    return cycle(1.0, {still(translation({0, 0, height + 0.1})), still(Isometry3d::Identity())});
+  };
+  CycleRequest request;
+  const auto verdict = [&](double height, double margin) {
+    request.margin = margin;
+    const CycleResult& result = monitor.run(at(height), request);
+    EXPECT_LT(result.error_bound, 1e-3);
+    if (result.verdict == Verdict::kClear) {
+      EXPECT_LE(result.pairs[0].clearance, height + 1e-9);
+    }
+    return result.verdict;
+  };
+  EXPECT_EQ(verdict(0.3, 0.0), Verdict::kClear);
+  EXPECT_EQ(verdict(0.3, 0.0), Verdict::kClear);
+  EXPECT_EQ(monitor.run(at(0.3), request).skipped, 1);
+  EXPECT_EQ(verdict(0.3, 0.29), Verdict::kClear);
+  EXPECT_EQ(verdict(0.3, 0.31), Verdict::kUncertain);
+  EXPECT_EQ(verdict(0.3, 0.31), Verdict::kUncertain);
+  EXPECT_EQ(verdict(0.3, 0.1), Verdict::kClear);
+  EXPECT_EQ(verdict(0.15, 0.1), Verdict::kClear);
+  EXPECT_EQ(verdict(0.05, 0.1), Verdict::kUncertain);
+  EXPECT_EQ(verdict(0.05, 0.0), Verdict::kClear);
+  request.max_time = 1e-9;
+  EXPECT_EQ(verdict(0.05, 0.1), Verdict::kUncertain);
+}
+
+TEST(Margin, IsRefusedIfItIsNone) {
+  for (const double wrong : {-1.0, 1e10, std::nan("")})
+    EXPECT_THROW(slide(plane(), 1.0, 0.0, wrong), std::invalid_argument) << wrong;
+}
+
+}  // namespace
+}  // namespace sdf_ccd
