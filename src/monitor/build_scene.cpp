@@ -13,6 +13,7 @@
 #include "monitor/plan/surface_needs.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
+#include "resting_answers.h"
 #include "surface_crossing.h"
 #include "untestable_pairs.h"
 
@@ -126,6 +127,7 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   scene.bodies = BodyList(std::move(bodies));
   warnOfUntestable(scene);
   scene.motion_margin = scene.motion_error = motion_margin;
+  scene.resting = std::make_shared<RestingAnswers>();
   setTotals(scene);
   return scene;
 }

@@ -10,6 +10,7 @@
 #include "model/error_budget.h"
 #include "monitor_impl.h"
 #include "pair_result.h"
+#include "pair_times.h"
 #include "sdf_ccd/common/cancel.h"
 #include "summarise.h"
 
@@ -174,6 +175,7 @@ void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const C
                           PairMemory& pair_memory) {
   checkCancelled();
   const auto i = static_cast<std::size_t>(due.pair);
+  const PairTimes::Measure measure(request.times, due.pair);
   checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
   if (checkers[i].isToComplete()) checkers[i].complete(motion, *bodies, request, pair_memory, result.pairs[i]);
   if (result.pairs[i].incomplete) checkCancelled();

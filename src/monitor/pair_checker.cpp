@@ -13,6 +13,7 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kStill = 1e-9;          // bodies rest if they move less relative to each other, by rounding [m]
 constexpr double kRootTolerance = 1e-9;  // relative to the path; guaranteed by segmentIntervals()
 
 void requireFinite(const ErrorBound& error) {
@@ -27,6 +28,7 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       pair_(pair),
       body_data_(body_data),
       options_(options),
+      resting_(scene.resting.get()),
       balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
       open_(isInsideUncertain(scene.bodies[pair.body_a]) || isInsideUncertain(scene.bodies[pair.body_b])),
       roles_(scene, pair) {
@@ -93,6 +95,7 @@ void PairChecker::take(const PairChecker& other) {
   inside_ = other.inside_;
   X_FP_last_ = other.X_FP_last_;
   untold_ = other.untold_;
+  X_AB_as_it_came_ = other.X_AB_as_it_came_;
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
@@ -150,6 +153,14 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     result.skipped = true;
     return;
   }
+  const bool rests = resting_ && travel_ <= kStill && !inside_;  // inside_ is known from the motion before
+  if (rests && isAnswered(bodies, request, result)) return;
+  test(motion, bodies, request, given_error, margin, result);
+  if (rests) answerOnce(bodies, request, result);
+}
+
+void PairChecker::test(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                       double given_error, double margin, PairResult& result) {
   SurfacePair::Answer by_surfaces;
   const ErrorBound surface_error = result.error;
   if (surfaces_) {

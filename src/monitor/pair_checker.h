@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "contact_refinement.h"
 #include "pair_roles.h"
+#include "resting_answers.h"
 #include "sdf_ccd/common/cancel.h"
 #include "surface_contacts.h"
 #include "surface_pair.h"
@@ -68,6 +70,7 @@ class PairChecker {
     forgetClearance();
     inside_.reset();
     untold_.reset();
+    X_AB_as_it_came_.reset();
     if (surfaces_) surfaces_->forget();
   }
 
@@ -106,6 +109,15 @@ class PairChecker {
   }
   bool canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result);
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  void test(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, double given_error,
+            double margin, PairResult& result);
+  // Of a pair whose bodies rest relative to each other:
+  Isometry3d poseAtRest() const;
+  RestingAnswers::Bodies restingBodies() const;
+  bool isAnswered(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  void answerOnce(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
+  std::shared_ptr<const RestingAnswer> findAtRest(const Isometry3d& X_AB, const CycleRequest& request) const;
+
   const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
   void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
@@ -135,6 +147,7 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::BodyData>& body_data_;  // per body
   const MonitorOptions& options_;
+  RestingAnswers* resting_;     // null: every cycle is tested
   bool balls_contain_bodies_;  // the bodies' balls contain all of them
   bool open_;                  // a point inside some field may be outside its body
   PairRoles roles_;
@@ -148,6 +161,7 @@ class PairChecker {
   double clearance_ = kUnknown;                     // lower bound of their distance [m]
   Isometry3d X_FP_last_ = Isometry3d::Identity();   // of surfaces_ or the first role; valid if one of these is known
   std::optional<Untold> untold_;
+  std::optional<Isometry3d> X_AB_as_it_came_;  // there the answer depends on the motion before
 
   // Of this cycle:
   double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]

@@ -104,6 +104,7 @@ struct WorldEditor::Impl {
   PreparedBodies bodies;  // of the last version, and some that are no longer used
   std::unordered_map<std::string, Named> named;
   std::uint64_t last_id = 0, last_version = 0;
+  std::shared_ptr<RestingAnswers> resting;  // of all versions
 };
 
 WorldEditor::WorldEditor(const BodyOptions& options) : impl_(new Impl) {
@@ -179,6 +180,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::Impl::finish(SceneDescription 
                                                                const std::vector<Shared>& prepared, Scene scene,
                                                                std::shared_ptr<WorldSnapshot> snapshot) {
   snapshot->seconds = scene.build_seconds;
+  resting = scene.resting;
   snapshot->description = std::make_shared<const SceneDescription>(std::move(description));
   snapshot->scene = std::make_shared<const Scene>(std::move(scene));
   std::unordered_map<std::string, Named> now;
@@ -259,6 +261,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   });
   if (!are_ready) return nullptr;
   Scene scene = plannedScene(description, plan, impl_->options);
+  if (impl_->resting) scene.resting = impl_->resting;
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
   if (const std::string warning = warnOfUntestable(scene); !warning.empty()) snapshot->warnings.push_back(warning);
   setTotals(scene);

@@ -120,6 +120,7 @@ class MotionChecker {
     request_.contacts = false;
     request_.skipped_pairs = false;
     request_.margin = wanted.margin;
+    request_.times = wanted.times;
   }
 
   /// Without MotionVerdict::pairs.

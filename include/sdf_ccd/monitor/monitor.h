@@ -25,6 +25,8 @@ enum class Refinement {
   kDeepest,
 };
 
+class PairTimes;
+
 /// The outputs wanted from a cycle; others are not computed.
 struct CycleRequest {
   bool wrenches = true;
@@ -51,6 +53,8 @@ struct CycleRequest {
   /// Only pairs that stay farther apart than this are CLEAR [m]; those that come closer are UNCERTAIN, and so are
   /// contacts that are less deep. Error bounds do not contain it. From 0 to kLargestMargin.
   double margin = 0.0;
+
+  PairTimes* times = nullptr;  ///< receives the time that each pair takes; null: it is not measured
 
   /// Whether contacts are computed, for themselves or for something else.
   bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
@@ -184,6 +188,8 @@ class MonitorChange {
 ///
 /// A CLEAR pair is not tested again until its bodies can have used up the distance between them. Skipping costs some
 /// nanoseconds per pair and cycle and is as safe as a test, even if a motion does not begin where the last one ended.
+/// Any other pair is not tested again while its bodies do not move relative to each other, by no monitor of the scene:
+/// Scene::resting.
 ///
 /// In a field with openings, a point may be inside only because of a cap, or may have come there through an opening.
 /// Hits in such a field alone give UNCERTAIN, with a depth_error no less than the depth. They bear no force, unless the

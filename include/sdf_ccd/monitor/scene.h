@@ -90,6 +90,8 @@ struct PlanOptions {
 /// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
+class RestingAnswers;
+
 /// Bodies that are ready to be checked, and their pairs.
 struct Scene {
   BodyList bodies;
@@ -103,6 +105,9 @@ struct Scene {
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]
   std::optional<double> max_error;                 ///< as requested [m]
   double build_seconds = 0.0;
+  /// What is known of pairs that do not move relative to each other, shared by all monitors of the scene and its next
+  /// versions. Null: each monitor finds it out itself, in every cycle.
+  std::shared_ptr<RestingAnswers> resting;
 };
 
 /// The options that planScene() needs.

@@ -63,6 +63,8 @@ struct MotionsRequest {
   /// Maximum deviations of a motion's samples [m], coarse first: motions that are not CLEAR are checked again with the
   /// next one. Most of a planner's edges are far from everything, and a coarse check takes a fraction of a fine one.
   std::vector<double> tolerances = {0.01, 1e-4};
+
+  PairTimes* times = nullptr;  ///< as CycleRequest::times
 };
 
 /// A pair that is not CLEAR over a motion.

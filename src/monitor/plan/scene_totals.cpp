@@ -1,8 +1,10 @@
 #include "scene_totals.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "monitor/pair_bound.h"
+#include "monitor/resting_answers.h"
 
 namespace sdf_ccd {
 namespace {
@@ -21,6 +23,7 @@ Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, c
   scene.max_error = options.max_error;
   scene.motion_margin = options.motion_margin;
   scene.motion_error = options.motion_error;
+  scene.resting = std::make_shared<RestingAnswers>();
   return scene;
 }
 

@@ -15,6 +15,7 @@
 #include "common/refuse.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
+#include "monitor/pair_times.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/freed_memory.h"
@@ -92,6 +93,17 @@ void addVerdict(const MotionVerdict& verdict, const Scene& scene, QueryMotions::
   }
 }
 
+/// Does the work; if it is cancelled, says what it was at.
+template <class Work, class Report>
+void orElse(const Work& work, const Report& report) {
+  try {
+    work();
+  } catch (const Cancelled&) {
+    report();
+    throw;
+  }
+}
+
 /// Notes on several motions: each text once, with the first motion that it is about. Threads may add at once.
 class MotionNotes {
  public:
@@ -154,18 +166,20 @@ void Queries::answerWith(const Work& work, Response& response) {
     response.scene_version = version;
     response.message = why;
   };
+  std::string used_by;  // what took most of the time
   try {
     const CancelScope scope(std::chrono::steady_clock::now() + durationOf(request_time_));
     const WorkTurns::Caller registered(turns_);
-    work();
+    work(used_by);
     response.success = true;
   } catch (const Cancelled&) {
     if (caller.requested()) throw;
+    const std::string by = used_by.empty() ? "" : ", most of it for " + used_by;
     if (secondsSince(start) >= request_time_) {
-      fail("the request has taken longer than " + numberText(request_time_) + " s (parameter request_time)");
+      fail("the request has taken longer than " + numberText(request_time_) + " s (parameter request_time)" + by);
     } else {
-      fail("the request takes more than " + numberText(limits_.seconds) +
-           " s: split it into parts, or send it again when the computer is less busy");
+      fail("the request takes more than " + numberText(limits_.seconds) + " s" + by +
+           ": split it into parts, or send it again when the computer is less busy");
     }
   } catch (const std::exception& error) {
     fail(error.what());
@@ -200,7 +214,7 @@ std::shared_ptr<const CheckedWorld> Queries::world() const {
 }
 
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
-  answerWith([&] { checkMotion(request, response); }, response);
+  answerWith([&](std::string& used_by) { checkMotion(request, response, used_by); }, response);
   if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
@@ -223,7 +237,8 @@ PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWo
   return planned;
 }
 
-void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response) {
+void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response,
+                          std::string& used_by) {
   requireAtMost(limits_.waypoints,
                 request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
                 "waypoints");
@@ -240,17 +255,20 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   wanted.max_points = max_points_;
   wanted.refine = refine_;
   wanted.margin = request.margin;
+  PairTimes times(world->scene().pairs.size());
+  wanted.times = &times;
   MotionCheck check(world->snapshot->scene, options_, planned, wanted, memory_);
   std::unique_ptr<PlannedMarkers> markers;
   if (marker_publisher_ && marker_publisher_.getNumSubscribers() > 0)
     markers = std::make_unique<PlannedMarkers>(world->description());
-  while (!check.isDone()) {
+  const auto checkPiece = [&] {
     const Piece piece(*this, spent);
     arena_.run([&] {
       const CycleMotion& motion = check.next();
       if (markers) markers->add(motion);
     });
-  }
+  };
+  while (!check.isDone()) orElse(checkPiece, [&] { used_by = times.longest(world->scene()); });
   const CycleResult result = check.result();
   response.message = result.pairs.empty() ? "no pairs: there is nothing to check" : planned.notes;
   for (const AssumedJoint& joint : planned.assumed) {
@@ -269,10 +287,11 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
 }
 
 void Queries::answer(const QueryMotions::Request& request, QueryMotions::Response& response) {
-  answerWith([&] { checkMotions(request, response); }, response);
+  answerWith([&](std::string& used_by) { checkMotions(request, response, used_by); }, response);
 }
 
-void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response) {
+void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response,
+                           std::string& used_by) {
   const std::size_t count = request.motions.size();
   requireAtMost(limits_.motions, count, "motions");
   const std::string frame = rootFrameOf(request);  // one, so that tf is queried once
@@ -286,10 +305,12 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   wanted.margin = request.margin;
   wanted.list_pairs = request.list_pairs;
   wanted.refine = refine_;
+  PairTimes times(scene.pairs.size());
+  wanted.times = &times;
   const std::size_t per_piece = kMotionsPerThread * arena_.threads();
   MotionNotes notes;
   double spent = 0.0;
-  for (std::size_t first = 0; first < count; first += per_piece) {
+  const auto checkFrom = [&](std::size_t first) {
     const Piece piece(*this, spent);
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
@@ -313,13 +334,15 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     });
     for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
     requireAtMost(limits_.pairs, response.pair_motions.size(), "listed pairs");
-  }
+  };
+  for (std::size_t first = 0; first < count; first += per_piece)
+    orElse([&] { checkFrom(first); }, [&] { used_by = times.longest(scene); });
   response.margin = request.margin;
   response.message = notes.text();
 }
 
 void Queries::answer(const QueryPoints::Request& request, QueryPoints::Response& response) {
-  answerWith([&] { findDistances(request, response); }, response);
+  answerWith([&](std::string&) { findDistances(request, response); }, response);
 }
 
 void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Response& response) {

@@ -64,8 +64,11 @@ class Queries {
 
   PlannedScene planFromNow(const std::string& plan_frame, const CheckedWorld& world) const;
   PlannedMotion plan(const QueryMotion::Request& request, const CheckedWorld& world) const;
-  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response);
-  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response);
+  /// @param used_by  receives what took most of the time, if the answer is cancelled.
+  ///@{
+  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response, std::string& used_by);
+  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by);
+  ///@}
   void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
 
   mutable std::mutex world_mutex_;
