@@ -152,7 +152,7 @@ class MappedRoom {
       : changed_(changed), map_("map", "world", options()), editor_(accuracy) {}
 
   std::shared_ptr<const WorldSnapshot> take(int scan) {
-    VoxelMap::Change change = map_.take(room_.scan(changed_, scan, options()), {});
+    VoxelMap::Change change = map_.update(room_.scan(changed_, scan, options()), {});
     for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
     for (const std::string& gone : change.removed) tiles_.erase(gone);
     SceneDescription description{links(), {}};

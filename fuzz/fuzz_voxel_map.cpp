@@ -21,7 +21,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                    has_colour ? "ColorOcTree" : "OcTree", is_binary);
     fuzz::require(grid.occupiedCount() <= options.max_voxels, "no more voxels than allowed");
     VoxelMap map("map", "world", options);
-    const VoxelMap::Change change = map.take(grid, {});
+    const VoxelMap::Change change = map.update(grid, {});
     for (const BodyDescription& tile : change.made)
       fuzz::require(tile.geometry.front().field.has_value(), "each tile has its field");
     fuzz::require(change.removed.empty(), "nothing was there before");

@@ -146,7 +146,7 @@ TEST(BuildScene, PairsOfABodyThatFailedAreNeverDue) {
   CycleMotion late = motion;
   late.spans = {{0, 0}, {0, 0}, {0, 0}};
   expectNotChecked(late, 0, 0, 1);
-  expectNotChecked(motion, 1, 0, 0);
+  expectNotChecked(motion, 0, 1, 0);
   CycleRequest brief;
   brief.skipped_pairs = false;
   monitor.run(motion, brief);

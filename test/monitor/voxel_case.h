@@ -16,8 +16,13 @@ constexpr int kMiddle = 32768;
 
 using Voxels = std::set<std::array<int, 3>>;  // counted from the origin
 
-inline VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options) {
+/// @param free  known to be free.
+/// @param map   that the grid is for; null: none that has anything to remember.
+inline VoxelGrid gridOf(const Voxels& voxels, const VoxelMapOptions& options, const Voxels& free = {},
+                        const VoxelMap* map = nullptr) {
   VoxelGrid grid(kSize, options);
+  if (map) map->watch(grid);
+  for (const auto& v : free) grid.add(Vector3i(kMiddle + v[0], kMiddle + v[1], kMiddle + v[2]), 1, false);
   for (const auto& v : voxels) grid.add(Vector3i(kMiddle + v[0], kMiddle + v[1], kMiddle + v[2]), 1, true);
   return grid;
 }

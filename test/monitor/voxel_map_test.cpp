@@ -45,14 +45,19 @@ TEST(VoxelMap, AChangedMapIsAsOneMadeAnew) {
   Kept kept;
   for (int scan = 0; scan < 12; ++scan) {
     std::size_t changed = 0;
-    std::set<std::array<int, 3>> tiles;
+    Voxels freed;
     for (int i = 0; i < (scan == 0 ? 0 : 30); ++i) {
       const std::array<int, 3> v{int(uniform(random, -30, 30)), int(uniform(random, -30, 30)),
                                  int(uniform(random, -6, 20))};
-      if (!voxels.erase(v)) voxels.insert(v);
+      if (voxels.erase(v)) {
+        freed.insert(v);
+      } else {
+        voxels.insert(v);
+        freed.erase(v);
+      }
       ++changed;
     }
-    const VoxelMap::Change change = map.take(gridOf(voxels, options), {});
+    const VoxelMap::Change change = map.update(gridOf(voxels, options, freed, &map), {});
     EXPECT_EQ(change.occupied, voxels.size());
     kept.take(change);
     EXPECT_LE(change.made.size(), scan == 0 ? 100U : 8 * changed);
@@ -67,9 +72,9 @@ TEST(VoxelMap, AChangedMapIsAsOneMadeAnew) {
         EXPECT_LT(said, 0.88 * 0.5 * kSize);
       }
     }
-    EXPECT_TRUE(map.take(gridOf(voxels, options), {}).made.empty()) << "nothing has changed";
+    EXPECT_TRUE(map.update(gridOf(voxels, options), {}).made.empty()) << "nothing has changed";
   }
-  const VoxelMap::Change gone = map.take(VoxelGrid(kSize, options), {});
+  const VoxelMap::Change gone = map.update(gridOf({}, options, voxels, &map), {});
   kept.take(gone);
   EXPECT_EQ(kept.size(), 0U);
 }
@@ -81,7 +86,7 @@ TEST(VoxelMap, InsideAWallIsDeepWhereTilesMeet) {
       for (int z = -20; z < 20; ++z) voxels.insert({x, y, z});
   VoxelMap map("map", "world", {});
   Kept kept;
-  kept.take(map.take(gridOf(voxels, {}), {}));
+  kept.take(map.update(gridOf(voxels, {}), {}));
   EXPECT_GT(kept.size(), 7U);
   for (double s = -0.8; s < 0.8; s += 0.01)
     for (const Vector3d& p : {Vector3d(s, 0.4, 0.5), Vector3d(0.1, s, -0.5), Vector3d(0.5, 0.1, s)})
@@ -98,7 +103,7 @@ TEST(VoxelMap, WhatTheRobotFillsDoesNotCount) {
   const VoxelMask ball = ballMask({0.1, 0.0, 0.0}, 0.2);
   VoxelMap map("map", "world", options);
   Kept kept;
-  const VoxelMap::Change change = map.take(gridOf(voxels, options), {ball});
+  const VoxelMap::Change change = map.update(gridOf(voxels, options), {{ball}});
   kept.take(change);
   Voxels left;
   for (const auto& v : voxels) {
@@ -109,7 +114,7 @@ TEST(VoxelMap, WhatTheRobotFillsDoesNotCount) {
   EXPECT_EQ(change.masked, voxels.size() - left.size());
   EXPECT_GT(kept.distance(ball.center_M), 0.2);
   // When the mask is gone, the voxels there count again.
-  kept.take(map.take(gridOf(voxels, options), {}));
+  kept.take(map.update(gridOf(voxels, options), {}));
   EXPECT_LT(kept.distance(ball.center_M), 0.0);
 }
 
@@ -119,8 +124,9 @@ TEST(VoxelMap, AMaskTakesNoMoreThanTheTilesThereAre) {
   options.max_tiles = 2;
   VoxelMap map("map", "world", options);
   const VoxelMask ball = ballMask({0.1, 0.0, 0.0}, 20.0), far = ballMask({0.0, 0.0, 1000.0}, 500.0);
-  EXPECT_EQ(map.take(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {far}).masked, 0U);
-  EXPECT_EQ(map.take(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {ball, far}).masked, 2U);
+  EXPECT_EQ(map.update(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {{far}}).masked, 0U);
+  map.forget();  // else they are known to be obstacles
+  EXPECT_EQ(map.update(gridOf({{0, 0, 0}, {5, 0, 0}}, options), {{ball, far}}).masked, 2U);
 }
 
 TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
@@ -134,7 +140,7 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   };
   VoxelMap all("map", "world", options);
   Kept kept;
-  kept.take(all.take(gridOfFree(), {}));
+  kept.take(all.update(gridOfFree(), {}));
   EXPECT_GT(kept.distance({0.4, 0.4, 0.4}), 0.1);
   EXPECT_LT(kept.distance({1.2, 0.4, 0.4}), 0.0);
 
@@ -143,7 +149,7 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   const VoxelMask ball = ballMask({0.75, 0.4, 0.4}, 0.1);
   VoxelMap near("map", "world", options);
   Kept kept_near;
-  kept_near.take(near.take(gridOfFree(), {ball}));
+  kept_near.take(near.update(gridOfFree(), {{ball}}));
   EXPECT_GT(kept_near.distance({0.4, 0.4, 0.4}), 0.1);
   EXPECT_LT(kept_near.distance({1.05, 0.4, 0.4}), 0.0);  // unknown, 0.2 m from the ball
   EXPECT_GT(kept_near.distance({1.5, 0.4, 0.4}), 0.2);   // unknown, but far away
@@ -152,9 +158,9 @@ TEST(VoxelMap, UnknownSpaceIsWhatIsAskedFor) {
   VoxelMask rod = ballMask(Vector3d::Zero(), 5.0);
   rod.distance = [](const Vector3d& p) { return std::hypot(std::max(std::abs(p.x()) - 5.0, 0.0), p.y(), p.z()); };
   VoxelMap along("map", "world", options);
-  EXPECT_NO_THROW(along.take(VoxelGrid(kSize, options), {rod}));
+  EXPECT_NO_THROW(along.update(VoxelGrid(kSize, options), {{rod}}));
   rod.distance = [](const Vector3d& p) { return p.norm() - 5.0; };
-  EXPECT_THROW(along.take(VoxelGrid(kSize, options), {rod}), std::runtime_error);
+  EXPECT_THROW(along.update(VoxelGrid(kSize, options), {{rod}}), std::runtime_error);
 }
 
 TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {
@@ -169,7 +175,7 @@ TEST(VoxelMap, AMaskOfAnotherTimeHidesNoOccupiedVoxels) {
   ball.only_unknown = true;
   VoxelMap map("map", "world", options);
   Kept kept;
-  kept.take(map.take(std::move(grid), {ball}));
+  kept.take(map.update(std::move(grid), {{ball}}));
   EXPECT_LT(kept.distance(p), 0.0);
   EXPECT_GT(kept.distance(p + Vector3d(0.1, 0.0, 0.0)), 0.0);  // unknown, and filled by the ball
   EXPECT_LT(kept.distance(p + Vector3d(0.3, 0.0, 0.0)), 0.0);  // unknown, near the ball
@@ -187,7 +193,7 @@ TEST(VoxelMap, FreeSpaceOfMoreTilesThanMayBeIsKnown) {
     for (int i = 0; i < 100; ++i) grid.add(Vector3i(kMiddle + 10 * i, kMiddle + 10 * i, kMiddle + 500), 1, false);
     VoxelMap map("map", "world", options);
     Kept kept;
-    kept.take(map.take(std::move(grid), {ballMask({20.0, 20.0, 25.0}, 0.1), ballMask({51.1, 51.1, 25.0}, 0.1)}));
+    kept.take(map.update(std::move(grid), {{ballMask({20.0, 20.0, 25.0}, 0.1), ballMask({51.1, 51.1, 25.0}, 0.1)}}));
     EXPECT_GT(kept.distance({20.0, 20.0, 25.0}), 0.3);
     EXPECT_GT(kept.distance({20.2, 20.1, 25.1}), 0.1);
     EXPECT_GT(kept.distance({51.0, 51.0, 25.0}), 0.0);
@@ -226,7 +232,7 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   grid.addOctree(reinterpret_cast<const std::int8_t*>(bytes.data()) + at, bytes.size() - at, "OcTree", true);
   EXPECT_GE(grid.occupiedCount(), 143729U);  // the number of leaves, some of which are larger than a voxel
   VoxelMap map("map", "world", options);
-  const VoxelMap::Change change = map.take(std::move(grid), {});
+  const VoxelMap::Change change = map.update(std::move(grid), {});
   EXPECT_GE(change.occupied, 143729U);
   std::size_t bytes_of_fields = 0;
   for (const BodyDescription& tile : change.made) bytes_of_fields += tile.geometry[0].field->bytes();

@@ -34,7 +34,7 @@ TEST(VoxelMask, WhatIsInAnOpenBodyCounts) {
     ASSERT_TRUE(mask);
     VoxelMap map("map", "world", options);
     Kept kept;
-    kept.take(map.take(gridOf({{0, 0, 0}, {0, 0, 7}, {7, 0, 0}, {0, 0, -8}, {3, 7, 2}}, options), {*mask}));
+    kept.take(map.update(gridOf({{0, 0, 0}, {0, 0, 7}, {7, 0, 0}, {0, 0, -8}, {3, 7, 2}}, options), {{*mask}}));
     EXPECT_LT(kept.distance({0.025, 0.025, 0.025}), 0.0) << "in its middle";
     EXPECT_LT(kept.distance({0.025, 0.025, 0.375}), 0.0) << "in its opening";
     EXPECT_GT(kept.distance({0.375, 0.025, 0.025}), 0.0) << "a wall";
@@ -92,7 +92,7 @@ void expectHidden(const VoxelMask& mask, double error) {
     const Eigen::Array3i v = (10.0 * uniform(random, 0.0, 1.3) * direction(random).array()).cast<int>();
     const double distance = distanceToRing(kSize * (v.cast<double>() + 0.5).matrix());
     VoxelMap map("map", "world", options);
-    const std::size_t masked = map.take(gridOf({{v.x(), v.y(), v.z()}}, options), {mask}).masked;
+    const std::size_t masked = map.update(gridOf({{v.x(), v.y(), v.z()}}, options), {{mask}}).masked;
     if (distance < pad - kChords) {
       EXPECT_EQ(masked, 1U) << distance;
     } else if (distance > std::max(pad, error) + kChords) {
@@ -136,7 +136,7 @@ TEST(VoxelMask, WhatIsInAJawCounts) {
     const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d(Eigen::Translation3d(p - center)));
     ASSERT_TRUE(mask);
     VoxelMap map("map", "world", options);
-    EXPECT_EQ(map.take(gridOf({{0, 0, 0}}, options), {*mask}).masked, 0U) << p.transpose();
+    EXPECT_EQ(map.update(gridOf({{0, 0, 0}}, options), {{*mask}}).masked, 0U) << p.transpose();
   }
 }
 
@@ -157,7 +157,7 @@ TEST(VoxelMask, HidesUnknownSpaceAsOccupiedSpace) {
   unknown.unknown = UnknownSpace::kOccupied;
   VoxelMap map("map", "world", unknown);
   Kept kept;
-  kept.take(map.take(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {*ring.mask}));
+  kept.take(map.update(gridOf({{-12, -12, -12}, {12, 12, 12}}, unknown), {{*ring.mask}}));
   EXPECT_LT(kept.distance(Vector3d::Constant(0.025)), 0.0) << "unknown space within the ring";
   EXPECT_GT(kept.distance({kRing, 0.0, 0.0}), 0.0) << "unknown space in the ring's tube";
 }

@@ -37,7 +37,7 @@ struct BallInMap {
     VoxelMapOptions options;
     options.band = 2.0 * kSize;
     VoxelMap map("map", "world", options);
-    VoxelMap::Change change = map.take(gridOf(voxels, options), {});
+    VoxelMap::Change change = map.update(gridOf(voxels, options), {});
     std::vector<BodyDescription> bodies = std::move(change.made);
     bodies.insert(bodies.begin(), body("ball", Primitive(Sphere{radius})));
     scene = build(std::move(bodies), fine(0.1 * radius));
@@ -93,7 +93,7 @@ TEST(VoxelVerdict, TrianglesAreCountedAndExpected) {
       for (int z = 0; z < 4 + int(3.0 * std::sin(0.3 * x) * std::cos(0.2 * y)); ++z) hills.insert({x, y, z});
   VoxelMapOptions options;
   VoxelMap map("map", "world", options);
-  SceneDescription description{map.take(gridOf(hills, options), {}).made, {}};
+  SceneDescription description{map.update(gridOf(hills, options), {}).made, {}};
   double faces = 0.0;
   for (BodyDescription& tile : description.bodies) {
     tile.geometry[0].field.reset();  // to be built here, like that of a map from a file

@@ -67,12 +67,60 @@ TEST_F(ChangingSceneAttachTest, AttachesAndDetachesByTransformsOfOneTime) {
   EXPECT_NEAR(body("box").X_frame_B.translation().x(), 0.0, 1e-9);
 }
 
+/// Of a live map: voxels in an object are checked again in the version in which the object is gone from there.
+TEST_F(ChangingSceneAttachTest, ATileIsJudgedAsItsObjectAsLongAsThatIsThere) {
+  BodyDescription tile, other;
+  tile.name = "octomap/0_0_0/box";
+  other.name = "octomap/0_0_0";
+  for (BodyDescription* made : {&tile, &other}) {
+    made->frame = "base";
+    made->is_world = true;
+    made->map = "octomap";
+  }
+  const auto setTiles = [&] { scene_->setTiles({other, tile}, {{tile.name, {"box", scene_->declared().at("box")}}}, nullptr); };
+  const auto isChecked = [&] {
+    EXPECT_EQ(body(other.name).name, other.name);
+    return !body(tile.name).name.empty();
+  };
+  apply(box());
+  setTiles();
+  EXPECT_FALSE(isChecked());
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link = "tip";
+  apply(attach);
+  EXPECT_FALSE(isChecked()) << "it is held where it was";
+  apply(change(SceneChange::DETACH));
+  EXPECT_FALSE(isChecked());
+  apply(rule(SceneChange::ALLOW, "arm", "box"));
+  EXPECT_FALSE(isChecked());
+
+  SceneChange move = box();
+  move.type = SceneChange::MOVE;
+  apply(move);
+  EXPECT_TRUE(isChecked()) << "moved";
+  setTiles();
+  apply(box());
+  EXPECT_TRUE(isChecked()) << "replaced";
+  setTiles();
+  attach.pose = box().pose;
+  apply(attach);
+  EXPECT_TRUE(isChecked()) << "attached elsewhere";
+  setTiles();
+  apply(change(SceneChange::REMOVE));
+  EXPECT_TRUE(isChecked()) << "removed";
+  apply(box());
+  EXPECT_TRUE(isChecked()) << "another one of its name";
+  setTiles();
+  apply(change(SceneChange::CLEAR, ""));
+  EXPECT_TRUE(isChecked()) << "all are removed";
+}
+
 TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   BodyDescription tile;
   tile.name = "octomap/0_0_0";
   tile.frame = "base";
   tile.is_world = true;
-  scene_->setTiles({tile}, nullptr);
+  scene_->setTiles({tile}, {}, nullptr);
   SceneChange attach = box();
   attach.type = SceneChange::ATTACH;
   attach.link = "tip";

@@ -190,7 +190,7 @@ TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   load.file = world;
   EXPECT_EQ(refusal(load), why);
   apply(box("octomap"));
-  scene_->setTiles({}, nullptr);
+  scene_->setTiles({}, {}, nullptr);
   EXPECT_TRUE(description().has_live_map) << "the next map may have tiles";
 }
 

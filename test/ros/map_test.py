@@ -30,6 +30,14 @@ class MapTest(unittest.TestCase):
     def version(self):
         return self.get_plan().plan.scene_version
 
+    shown = set()  # voxels that were ever occupied
+
+    def map_of(self, voxels):
+        """A map of these voxels, in which all others that were shown before are free."""
+        free = {voxel: False for voxel in self.shown}
+        self.shown.update(voxels)
+        return message({**free, **voxels})
+
     def send(self, sent):
         """Sends a map and waits until the cycles use it. Returns the scene version."""
         before = self.version()
@@ -49,41 +57,48 @@ class MapTest(unittest.TestCase):
         return self.contacts.find_new(touches_map)
 
     def test_a_map_is_checked_and_its_next_one_too(self):
-        version = self.send(message(voxels_near(0.5, 0.0, 0.0, 0.1)))
+        version = self.send(self.map_of(voxels_near(0.5, 0.0, 0.0, 0.1)))
         self.assertIsNotNone(self.find_clear(version))
         self.robot.ball = 0.5
         self.assertIsNotNone(self.find_touching_map())
         # The map is replaced by one elsewhere.
-        version = self.send(message(voxels_near(0.0, -0.5, 0.0, 0.1)))
+        version = self.send(self.map_of(voxels_near(0.0, -0.5, 0.0, 0.1)))
         self.assertIsNotNone(self.find_clear(version))
 
     def test_what_the_robot_fills_does_not_count(self):
         self.robot.ball = 0.9
         time.sleep(0.3)
         picture = voxels_near(0.0, 0.0, 0.0, 0.05)
-        self.send(message(picture))  # the ball is not there
+        self.send(self.map_of(picture))  # the ball is not there
         self.robot.ball = 0.0
         self.assertIsNotNone(self.find_touching_map())
         time.sleep(0.3)
-        version = self.send(message({**picture, **voxels_near(0.5, 0.0, 0.0, 0.05)}))
+        far = voxels_near(0.5, 0.0, 0.0, 0.05)
+        self.send(self.map_of({**picture, **far}))
+        self.assertIsNotNone(self.find_touching_map())  # it was there before the ball
+        version = self.send(self.map_of(far))
         self.assertIsNotNone(self.find_clear(version))
+        version = self.send(self.map_of({**picture, **voxels_near(0.6, 0.0, 0.0, 0.05)}))
+        self.assertIsNotNone(self.find_clear(version))  # it has become occupied beside the ball
 
     def test_the_full_format(self):
-        self.send(message(voxels_near(0.3, 0.0, 0.0, 0.1), is_binary=False))
+        lump = voxels_near(0.3, 0.0, 0.0, 0.1)
+        self.send(message({**{voxel: False for voxel in self.shown}, **lump}, is_binary=False))
+        self.shown.update(lump)
         self.robot.ball = 0.3
         self.assertIsNotNone(self.find_touching_map())
 
     def test_the_plan_is_that_of_the_last_map(self):
         plans = Recorder('/collision_monitor/plan', Plan)
         for x in (0.3, 0.4, 0.5):
-            version = self.send(message(voxels_near(x, 0.0, 0.0, 0.05)))
+            version = self.send(self.map_of(voxels_near(x, 0.0, 0.0, 0.05)))
         self.assertIsNotNone(plans.find(lambda m: m.scene_version == version))
         plans.close()
 
     def test_what_slides_over_tiles_is_one_contact(self):
         wall = {(32768 + x, 32768 + y, 32768 + z): True for x in range(8, 30) for y in range(-2, 2)
                 for z in range(-2, 2)}
-        self.send(message(wall))
+        self.send(self.map_of(wall))
         self.robot.ball = 0.45
         self.assertIsNotNone(self.find_touching_map())
         self.contacts.clear()
@@ -103,7 +118,7 @@ class MapTest(unittest.TestCase):
 
     def test_no_object_takes_a_tiles_name(self):
         update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
-        self.send(message(voxels_near(0.5, 0.0, 0.0, 0.05)))
+        self.send(self.map_of(voxels_near(0.5, 0.0, 0.0, 0.05)))
         for name in ('octomap/0_-1_-1', 'octomap/1_0_0'):  # a present tile, and a possible one
             answer = update(changes=[box(name, pose(0.0, 3.0))])
             self.assertFalse(answer.success)
@@ -113,7 +128,7 @@ class MapTest(unittest.TestCase):
         self.assertIsNotNone(self.contacts.find_new(lambda m: touches(m, 'ball', 'octomap')))
         touching = self.contacts.messages[-1].contacts[0]
         self.assertTrue(update(changes=[SceneChange(type=SceneChange.REMOVE, object='octomap')]).success)
-        self.send(message(voxels_near(0.9, 0.0, 0.0, 0.05)))
+        self.send(self.map_of(voxels_near(0.9, 0.0, 0.0, 0.05)))
         self.robot.ball = 0.9
         found = self.contacts.find_new(lambda m: touches_map(m) and m.contacts)
         self.assertIsNotNone(found)
@@ -122,7 +137,7 @@ class MapTest(unittest.TestCase):
     def test_a_map_from_a_bag(self):
         file = os.path.join(tempfile.mkdtemp(), 'map.bag')
         with rosbag.Bag(file, 'w') as bag:
-            bag.write('/octomap', message(voxels_near(0.7, 0.0, 0.0, 0.1)))
+            bag.write('/octomap', self.map_of(voxels_near(0.7, 0.0, 0.0, 0.1)))
         before = self.version()
         subprocess.check_call(['rosbag', 'play', '-q', '-d', '1', '--wait-for-subscribers', '--topics', '/octomap',
                                '--bags', file], stdout=subprocess.DEVNULL)
@@ -131,7 +146,7 @@ class MapTest(unittest.TestCase):
         self.assertIsNotNone(self.find_touching_map())
 
     def test_a_damaged_map_changes_nothing(self):
-        self.send(message(voxels_near(0.5, 0.0, 0.0, 0.1)))
+        self.send(self.map_of(voxels_near(0.5, 0.0, 0.0, 0.1)))
         before = self.version()
         for spoil in (lambda m: m.data.pop(), lambda m: m.data.extend([0] * 9),
                       lambda m: setattr(m, 'resolution', float('nan')), lambda m: setattr(m, 'id', 'Nonsense'),

@@ -9,62 +9,28 @@
 #include "common/number_text.h"
 #include "geometry/octree_leaves.h"
 #include "sdf_ccd/common/cancel.h"
+#include "voxels_near.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr int kLevels = 17;  // levels of the tree, from a single voxel to the whole tree
 
+/// Calls `visit` with the index of each voxel of a tile that a cube of voxels contains.
+template <class Visit>
+void forEachVoxel(const Vector3i& tile, const Vector3i& low, int side, const Visit& visit) {
+  const Vector3i from = (low - kTileSide * tile).cwiseMax(0);
+  const Vector3i to = (low - kTileSide * tile + Vector3i::Constant(side)).cwiseMin(kTileSide);
+  for (int z = from.z(); z < to.z(); ++z)
+    for (int y = from.y(); y < to.y(); ++y)
+      for (int x = from.x(); x < to.x(); ++x) visit(voxelIndex(x, y, z));
+}
+
 /// Key of the octree's cube at a level that contains a voxel.
 std::uint64_t cubeAt(const Vector3i& voxel, int level) {
   const auto place = [&](int axis) { return static_cast<std::uint64_t>(voxel[axis] >> level); };
   return static_cast<std::uint64_t>(level) << 48 | place(2) << 32 | place(1) << 16 | place(0);
 }
-
-/// Calls `visit` for each voxel of a tile whose centre is within `reach` of a point.
-template <class Visit>
-void visitNear(const Vector3i& tile, double size, const Vector3d& center, double reach, const Visit& visit) {
-  const Vector3d corner = cornerOf(kTileSide * tile, size);
-  const Vector3d low = (center - corner - Vector3d::Constant(reach)) / size;
-  const Vector3d high = (center - corner + Vector3d::Constant(reach)) / size;
-  const auto clamp = [](double x) { return static_cast<int>(std::clamp(x, 0.0, double(kTileSide))); };
-  const Vector3i from(clamp(std::floor(low.x())), clamp(std::floor(low.y())), clamp(std::floor(low.z())));
-  const Vector3i to(clamp(std::ceil(high.x())), clamp(std::ceil(high.y())), clamp(std::ceil(high.z())));
-  for (int z = from.z(); z < to.z(); ++z)
-    for (int y = from.y(); y < to.y(); ++y)
-      for (int x = from.x(); x < to.x(); ++x) {
-        const Vector3d p = corner + size * (Vector3d(x, y, z).array() + 0.5).matrix();
-        if ((p - center).squaredNorm() <= reach * reach) visit(voxelIndex(x, y, z), p);
-      }
-}
-
-/// The tiles that the bounding box of a ball meets.
-struct TilesNear {
-  Vector3i first, last;
-
-  TilesNear(const Vector3d& center, double reach, double size) {
-    const auto tile = [&](double x) {
-      const double voxel = std::floor(x / size) + kOriginVoxel;
-      return static_cast<int>(std::clamp(voxel, 0.0, double(kVoxelsAcross - 1))) / kTileSide;
-    };
-    for (int k = 0; k < 3; ++k) {
-      first[k] = tile(center[k] - reach);
-      last[k] = tile(center[k] + reach);
-    }
-  }
-
-  double count() const { return (last - first + Vector3i::Ones()).cast<double>().prod(); }
-  bool contains(const Vector3i& tile) const {
-    return (tile.array() >= first.array()).all() && (tile.array() <= last.array()).all();
-  }
-
-  template <class Visit>
-  void forEach(const Visit& visit) const {
-    for (Vector3i t = first; t.z() <= last.z(); ++t.z())
-      for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
-        for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) visit(t);
-  }
-};
 
 }  // namespace
 
@@ -85,7 +51,40 @@ VoxelGrid::Tile& VoxelGrid::tileAt(const Vector3i& tile) {
   return *last_tile_;
 }
 
+void VoxelGrid::watch(const TileMap& tiles) {
+  for (const auto& [key, bits] : tiles) free_.try_emplace(key);
+}
+
+/// In the watched tiles.
+void VoxelGrid::addFree(const Vector3i& low, int side) {
+  if (free_.empty()) return;
+  const Vector3i first = low / kTileSide, last = (low.array() + side - 1) / kTileSide;
+  const auto addTo = [&](const Vector3i& t, TileBits& free) {
+    forEachVoxel(t, low, side, [&](std::size_t i) { free.set(i); });
+  };
+  if ((last - first + Vector3i::Ones()).cast<double>().prod() > double(free_.size())) {
+    for (auto& [key, free] : free_) {
+      const Vector3i t = tileOf(key);
+      if ((t.array() >= first.array()).all() && (t.array() <= last.array()).all()) addTo(t, free);
+    }
+    return;
+  }
+  for (Vector3i t = first; t.z() <= last.z(); ++t.z())
+    for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
+      for (t.x() = first.x(); t.x() <= last.x(); ++t.x())
+        if (const auto found = free_.find(keyOf(t)); found != free_.end()) addTo(t, found->second);
+}
+
+void VoxelGrid::clearFree(TileMap& voxels) const {
+  for (auto tile = voxels.begin(); tile != voxels.end();) {
+    if (const auto free = free_.find(tile->first); free != free_.end()) tile->second &= ~free->second;
+    tile = tile->second.any() ? std::next(tile) : voxels.erase(tile);
+  }
+}
+
 void VoxelGrid::add(const Vector3i& low, int side, bool is_occupied) {
+  has_free_ |= !is_occupied;
+  if (!is_occupied) addFree(low, side);
   if (!is_occupied && !keeps_known_) return;
   const double count = double(side) * side * side;
   if (is_occupied) {
@@ -103,14 +102,10 @@ void VoxelGrid::add(const Vector3i& low, int side, bool is_occupied) {
     for (t.y() = first.y(); t.y() <= last.y(); ++t.y())
       for (t.x() = first.x(); t.x() <= last.x(); ++t.x()) {
         Tile& tile = tileAt(t);
-        const Vector3i from = (low - kTileSide * t).cwiseMax(0);
-        const Vector3i to = (low - kTileSide * t + Vector3i::Constant(side)).cwiseMin(kTileSide);
-        for (int z = from.z(); z < to.z(); ++z)
-          for (int y = from.y(); y < to.y(); ++y)
-            for (int x = from.x(); x < to.x(); ++x) {
-              if (is_occupied) tile.occupied.set(voxelIndex(x, y, z));
-              if (keeps_known_) tile.known.set(voxelIndex(x, y, z));
-            }
+        forEachVoxel(t, low, side, [&](std::size_t i) {
+          if (is_occupied) tile.occupied.set(i);
+          if (keeps_known_) tile.known.set(i);
+        });
       }
 }
 
@@ -206,44 +201,40 @@ void VoxelGrid::addUnknownNear(const VoxelMask& mask, TileMap& occupied) const {
   });
 }
 
-/// @return the number of hidden voxels.
-std::size_t VoxelGrid::hide(const VoxelMask& mask, TileMap& occupied) const {
-  const double pad = options_.padding + 0.5 * size_, reach = mask.radius + pad;
-  std::size_t hidden = 0;
-  const auto hideIn = [&](TileKey key, TileBits& bits) {
+void VoxelGrid::hide(const VoxelMask& mask, const TileMap& remembered, Occupied& result) const {
+  const double pad = options_.padding + 0.5 * size_;
+  forTilesNear(result.tiles, size_, mask.center_M, mask.radius + pad, [&](TileKey key, TileBits& bits) {
     const auto tile = tiles_.find(key);
     const TileBits seen = tile != tiles_.end() ? tile->second.occupied : TileBits();
-    visitNear(tileOf(key), size_, mask.center_M, reach, [&](std::size_t i, const Vector3d& p_M) {
-      if (!bits[i] || (seen[i] && mask.only_unknown)) return;
+    const auto known = remembered.find(key);
+    const TileBits may_hide = known != remembered.end() ? bits & ~known->second : bits;
+    if (may_hide.none()) return;
+    visitNear(tileOf(key), size_, mask.center_M, mask.radius + pad, [&](std::size_t i, const Vector3d& p_M) {
+      if (!may_hide[i] || (seen[i] && mask.only_unknown && !mask.is_guess)) return;
       if (!mask.isWithin(pad, p_M, !(seen[i] && mask.is_open))) return;
+      if (seen[i] && mask.only_unknown) {
+        result.unsure[key].set(i);
+        return;
+      }
       bits.reset(i);
-      ++hidden;
+      if (seen[i]) result.hidden[key].set(i);
+      ++result.masked;
     });
-  };
-  const TilesNear tiles(mask.center_M, reach, size_);
-  if (tiles.count() > double(occupied.size())) {  // a large mask and small voxels
-    for (auto& [key, bits] : occupied)
-      if (tiles.contains(tileOf(key))) hideIn(key, bits);
-    return hidden;
-  }
-  tiles.forEach([&](const Vector3i& t) {
-    const auto found = occupied.find(keyOf(t));
-    if (found != occupied.end()) hideIn(found->first, found->second);
   });
-  return hidden;
 }
 
-VoxelGrid::Occupied VoxelGrid::occupied(const std::vector<VoxelMask>& masks) const {
+VoxelGrid::Occupied VoxelGrid::occupied(const std::vector<VoxelMask>& masks, const TileMap& remembered) const {
   Occupied result;
-  result.tiles.reserve(tiles_.size());
+  result.tiles = remembered;
+  result.tiles.reserve(tiles_.size() + remembered.size());
   for (const auto& [key, tile] : tiles_)
-    if (tile.occupied.any()) result.tiles.emplace(key, tile.occupied);
+    if (tile.occupied.any()) result.tiles[key] |= tile.occupied;
   if (options_.unknown == UnknownSpace::kOccupied) addUnknown(result.tiles);
   if (options_.unknown == UnknownSpace::kOccupiedNear)
     for (const VoxelMask& mask : masks) addUnknownNear(mask, result.tiles);
   for (const VoxelMask& mask : masks) {
     checkCancelled();
-    result.masked += hide(mask, result.tiles);
+    hide(mask, remembered, result);
   }
   return result;
 }

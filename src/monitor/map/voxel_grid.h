@@ -49,32 +49,46 @@ class VoxelGrid {
   double size() const { return size_; }                    ///< of a voxel [m]
   std::size_t occupiedCount() const { return occupied_; }  ///< voxels
 
-  struct Occupied {
-    TileMap tiles;
-    std::size_t masked = 0;  ///< voxels
-  };
+  /// Has free space recorded in these tiles; to be called before leaves are added. See clearFree().
+  void watch(const TileMap& tiles);
 
-  /// The occupied voxels, with unknown ones if the options count these, without those that are hidden by masks.
-  /// @throws std::runtime_error if the options' limits are exceeded; Cancelled.
-  Occupied occupied(const std::vector<VoxelMask>& masks) const;
+  /// Removes voxels that this map shows as free, of tiles that are watched.
+  void clearFree(TileMap& voxels) const;
 
- private:
   struct Tile {
     TileBits occupied, known;
   };
+  bool hasFree() const { return has_free_; }  ///< whether it shows any free space
+  /// Tiles with occupied voxels or, unless unknown space is free, known ones.
+  const std::unordered_map<TileKey, Tile>& tiles() const { return tiles_; }
 
+  struct Occupied {
+    TileMap tiles;           ///< what counts
+    TileMap hidden;          ///< voxels that the map shows as occupied, but that masks hide
+    TileMap unsure;          ///< of those that count and are not remembered: may be the robot's (VoxelMask::is_guess)
+    std::size_t masked = 0;  ///< hidden voxels, with unknown ones
+  };
+
+  /// The occupied voxels, with unknown ones if the options count these, without those that are hidden by masks.
+  /// @param remembered  also count, and no mask hides them.
+  /// @throws std::runtime_error if the options' limits are exceeded; Cancelled.
+  Occupied occupied(const std::vector<VoxelMask>& masks, const TileMap& remembered = {}) const;
+
+ private:
   Tile& tileAt(const Vector3i& tile);
+  void addFree(const Vector3i& low, int side);
   void addLargeFree(const Vector3i& low, int side);
   std::optional<std::uint64_t> largeFreeAt(const Vector3i& voxel) const;
   TileBits known(const Vector3i& tile) const;
   void addUnknown(TileMap& occupied) const;
   void addUnknownNear(const VoxelMask& mask, TileMap& occupied) const;
-  std::size_t hide(const VoxelMask& mask, TileMap& occupied) const;
+  void hide(const VoxelMask& mask, const TileMap& remembered, Occupied& result) const;
 
   double size_;
   VoxelMapOptions options_;
-  bool keeps_known_;
+  bool keeps_known_, has_free_ = false;
   std::size_t occupied_ = 0;  // voxels
+  TileMap free_;              // of the watched tiles
   std::unordered_map<TileKey, Tile> tiles_;
   std::unordered_set<std::uint64_t> large_free_;  // free leaves of more than max_tiles tiles, by level and position
   int lowest_large_ = 16;                         // level of the smallest of these

@@ -72,7 +72,7 @@ struct VoxelMap::Tile {
 };
 
 VoxelMap::VoxelMap(std::string name, std::string frame, const VoxelMapOptions& options)
-    : name_(std::move(name)), frame_(std::move(frame)), options_(options) {}
+    : name_(std::move(name)), frame_(std::move(frame)), options_(options), memory_(options.max_tiles) {}
 
 struct VoxelMap::Made {
   TileKey key = 0;
@@ -126,21 +126,74 @@ std::vector<VoxelMap::Made> VoxelMap::make(const TileMap& occupied, double size,
   return made;
 }
 
-VoxelMap::Change VoxelMap::take(const VoxelGrid& grid, const std::vector<VoxelMask>& masks) {
-  const auto [occupied, masked] = grid.occupied(masks);
+VoxelMap::Change VoxelMap::replaceTiles(TileMap visible, const VoxelObjects& objects, double size) {
   Change change;
-  change.masked = masked;
-  for (const auto& [key, bits] : occupied) change.occupied += bits.count();
-  const Tiles none;
-  Tiles tiles;
-  for (Made& made : make(occupied, grid.size(), grid.size() == size_ ? tiles_ : none)) {
-    tiles.emplace(made.key, std::move(made.tile));
-    if (made.body) change.made.push_back(std::move(*made.body));
+  for (const auto& [key, bits] : visible) change.occupied += bits.count();
+  std::map<std::string, std::pair<std::uint64_t, TileMap>> wanted;
+  TileMap& others = wanted[""].second = visible;
+  for (const auto& [name, object] : objects.found()) {
+    TileMap& in_object = wanted[name].second;
+    wanted[name].first = object.declared;
+    for (const auto& [key, voxels] : object.voxels) {
+      TileBits& free = others[key];  // for this object: voxels in several of them are in the first one's tiles
+      const TileBits bits = voxels & free;
+      free &= ~bits;
+      if (bits.any()) in_object.emplace(key, bits);
+      change.in_objects += bits.count();
+    }
   }
-  for (const auto& [key, tile] : tiles_)
-    if (tiles.count(key) == 0) change.removed.push_back(nameOf(name_, tileOf(key)));
-  tiles_ = std::move(tiles);
-  size_ = grid.size();
+  Layers layers;
+  for (const auto& [object, declared_voxels] : wanted) {
+    const auto& [declared, voxels] = declared_voxels;
+    const auto last = layers_.find(object);
+    const bool continues = size == size_ && last != layers_.end() && last->second.declared == declared;
+    const std::string suffix = object.empty() ? "" : "/" + object;
+    Layer& layer = layers[object];
+    layer.declared = declared;
+    for (Made& made : make(voxels, size, continues ? last->second.tiles : Tiles())) {
+      layer.tiles.emplace(made.key, std::move(made.tile));
+      if (!object.empty()) change.objects[nameOf(name_, tileOf(made.key)) + suffix] = {object, declared};
+      if (!made.body) continue;
+      made.body->name += suffix;
+      change.made.push_back(std::move(*made.body));
+    }
+    if (layer.tiles.empty()) layers.erase(object);
+  }
+  for (const auto& [object, layer] : layers_) {
+    const auto now = layers.find(object);
+    for (const auto& [key, tile] : layer.tiles)
+      if (now == layers.end() || now->second.tiles.count(key) == 0)
+        change.removed.push_back(nameOf(name_, tileOf(key)) + (object.empty() ? "" : "/" + object));
+  }
+  layers_ = std::move(layers);
+  visible_ = std::move(visible);
+  size_ = size;
+  return change;
+}
+
+void VoxelMap::watch(VoxelGrid& grid) const {
+  if (grid.size() == size_) memory_.watch(grid);
+}
+
+VoxelMap::Change VoxelMap::update(const VoxelGrid& grid, const Surroundings& around) {
+  VoxelMemory::Seen seen = memory_.see(grid, around.masks, around.is_robot_known, around.is_again);
+  VoxelObjects objects = objects_;
+  objects.judge(seen.tiles, grid.size(), around.objects, true);
+  Change change = replaceTiles(std::move(seen.tiles), objects, grid.size());
+  memory_.accept(std::move(seen.after), around.is_again);
+  objects_ = std::move(objects);
+  change.masked = seen.masked;
+  change.unproven = seen.unproven;
+  change.unseen = seen.unseen;
+  change.forgotten = seen.forgotten;
+  return change;
+}
+
+VoxelMap::Change VoxelMap::judgeAgain(const std::vector<ObjectMask>& objects) {
+  VoxelObjects judged = objects_;
+  const bool has_changed = judged.judge(visible_, size_, objects, false);
+  Change change = has_changed ? replaceTiles(visible_, judged, size_) : Change();
+  objects_ = std::move(judged);
   return change;
 }
 

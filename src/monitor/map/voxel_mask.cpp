@@ -4,6 +4,7 @@
 
 #include "body/body_builder.h"
 #include "body/body_surface.h"
+#include "common/infinity.h"
 #include "monitor/surface_crossing.h"
 #include "sdf_ccd/monitor/scene.h"
 
@@ -21,6 +22,13 @@ struct MaskPart {
     if (primitive) return signedDistance(*primitive, p_G);
     const FieldSample known = field->sample(p_G);
     return std::max(known.value - known.error, field->lowerBound(p_G));
+  }
+
+  double farthest(const Vector3d& p_M) const {  ///< upper bound of the distance
+    const Vector3d p_G = X_GM * p_M;
+    if (primitive) return signedDistance(*primitive, p_G);
+    const FieldSample known = field->sample(p_G);
+    return known.value + known.error;
   }
 };
 
@@ -61,6 +69,39 @@ std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& descrip
     double nearest = parts.front().distance(p_M);
     for (const MaskPart& part : parts) nearest = std::min(nearest, part.distance(p_M));
     return nearest;
+  };
+  return mask;
+}
+
+std::optional<ObjectMask> objectMaskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM) {
+  const bool knows_inside = body.parts.size() == description.geometry.size() && !isInsideUncertain(body);
+  ObjectMask mask;
+  std::vector<MaskPart> parts;
+  AlignedBox3d box_B;
+  for (std::size_t i = 0; i < description.geometry.size(); ++i) {
+    const GeometryDescription& geometry = description.geometry[i];
+    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+    if (!primitive && !knows_inside) continue;
+    parts.push_back({geometry.X_BG.inverse() * X_BM, primitive, primitive ? nullptr : &body.parts[i].field});
+    const AlignedBox3d box = primitive ? boundingBox(*primitive) : body.parts[i].field.surfaceBox();
+    if (!box.sizes().allFinite()) {
+      mask.radius = kInfinity;
+      continue;
+    }
+    for (int k = 0; k < 8; ++k) box_B.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
+  }
+  const std::shared_ptr<const BodySurface> surface = hasMesh(description) ? body.surface : nullptr;
+  if (parts.empty() && !surface) return std::nullopt;
+  if (surface) box_B.extend(boundingBox(surface->mesh));
+  if (mask.radius < kInfinity) {
+    mask.center_M = X_BM.inverse() * box_B.center();
+    mask.radius = 0.5 * box_B.diagonal().norm();
+  }
+  mask.isWithin = [X_BM, surface, parts = std::move(parts)](const Vector3d& p_M, double limit) {
+    if (std::any_of(parts.begin(), parts.end(), [&](const MaskPart& part) { return part.farthest(p_M) <= limit; }))
+      return true;
+    const double of_triangles = surface ? limit - surface->deviation : 0.0;
+    return of_triangles > 0.0 && surface->tree.closestPoint(X_BM * p_M, 2.0 * limit).distance <= of_triangles;
   };
   return mask;
 }

@@ -12,6 +12,7 @@
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/freed_memory.h"
+#include "ros/monitor/map_distances.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
@@ -142,8 +143,10 @@ void CollisionMonitor::setUp() {
   if (!parameters_.live_map.topic.empty()) {
     plan_->limitRate(
         services_->node(), [this] { return scene_editor_->world(); }, described_.fixed_frame);
-    live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(), stop_);
+    live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(),
+                                          LiveMap::Place{described_.root_frame, loop_->warnings()}, stop_);
   }
+  loop_->warnings().set("distances to the map", distancesWithinPadding(parameters_));
   reconfiguration_ = std::make_unique<Reconfiguration>(services_->node(), parameters_, wake);
   health_watch_.health().building.clear();
   restart("waiting for transforms");
@@ -186,6 +189,7 @@ void CollisionMonitor::betweenCycles() {
   trigger_.setOptions(parameters_.trigger);
   proximity_->setParameters(parameters_.proximity);
   outputs_->markers().setOptions(parameters_.markers);
+  loop_->warnings().set("distances to the map", distancesWithinPadding(parameters_));
   health_watch_.health().wanted_rate = parameters_.rate;
 }
 
@@ -194,6 +198,7 @@ void CollisionMonitor::cycle() {
   diagnostics_->tick();
   if (services_->takeReset()) {
     loop_->reset();
+    if (live_map_) live_map_->forget();
     restart("reset");
   }
   listener_->recoverStatic();
@@ -236,6 +241,7 @@ void CollisionMonitor::publishCycle() {
   const boost::shared_ptr<MonitorState> state = state_messages_.take();
   const ros::Time sent = ros::Time::now();
   setMonitorState(*loop_, sent, *state);
+  state->map_voxels_unproven = live_map_ ? static_cast<std::uint32_t>(live_map_->unproven()) : 0;
   outputs_->publish(state, proximity_->measure(*state));
   logContacts();
   listener_->report(health_watch_.health());

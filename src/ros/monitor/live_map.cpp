@@ -20,20 +20,22 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-constexpr std::chrono::milliseconds kTfPeriod(5);            // between tests for transforms that a map waits for
-const ros::WallDuration kMasksPeriod(0.2);                   // between tests for poses that were missing for a map
+constexpr std::chrono::milliseconds kTfPeriod(5);  // between tests for transforms that a map waits for
+const ros::WallDuration kMasksPeriod(0.05);        // between tests for objects that move, and poses that were missing
 constexpr double kMinAgePeriod = 0.02, kMaxAgePeriod = 1.0;  // between tests of the map's age [s]
 
 }  // namespace
 
 LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
-                 const TfHistory& history, const std::atomic<bool>& stop)
+                 const TfHistory& history, const Place& place, const std::atomic<bool>& stop)
     : parameters_(parameters.live_map),
       max_latency_(parameters.tf.max_latency),
       max_gap_(parameters.tf.max_cycle),
       editor_(editor),
       history_(history),
-      stop_(stop) {
+      stop_(stop),
+      frame_watch_(history, place.root_frame),
+      warnings_(place.warnings) {
   options_.unknown = parameters_.unknown;
   options_.near_distance = parameters_.unknown_distance;
   options_.padding = parameters_.padding;
@@ -46,7 +48,8 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
       const octomap_msgs::Octomap::ConstPtr message = event.getConstMessage();
       const ros::Time stamp(message->header.stamp.sec, message->header.stamp.nsec);  // nsec may exceed one second
       auto robot = std::make_unique<RobotInMap>(history_, frameOf(*message), stamp, max_gap_);
-      process(*message, event.getReceiptTime(), *robot);
+      process(*message, event.getReceiptTime(), *robot, false);
+      received_ = ros::Time::now();
       robot_ = std::move(robot);
       incomplete_ = unknown_ > 0 ? message : nullptr;
       incomplete_received_ = event.getReceiptTime();
@@ -62,7 +65,10 @@ LiveMap::LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameter
     });
   }
   masks_timer_ = own.createWallTimer(kMasksPeriod, [this](const ros::WallTimerEvent&) {
-    run("The last map is not processed again", [this] { updateMasks(); });
+    run("The last map is not processed again", [this] {
+      updateMasks();
+      judgeObjects();
+    });
   });
   spinner_ = std::make_unique<ros::AsyncSpinner>(1, &queue_);
   spinner_->start();
@@ -88,7 +94,7 @@ void LiveMap::run(const char* what, const std::function<void()>& job) const {
 /// Otherwise a map would be trusted forever after its publisher has ended.
 void LiveMap::checkAge() {
   if (in_scene_ == InScene::kAwaited || !age_ || !age_->isTooOld(ros::Time::now())) return;
-  editor_.setMap({awaitedTile(history_.fixedFrame(), age_->text())}, nullptr, arena_);
+  editor_.setMap({awaitedTile(history_.fixedFrame(), age_->text())}, {}, nullptr, arena_);
   in_scene_ = InScene::kAwaited;
   ROS_WARN("%s: the robot is not checked against it", age_->text().c_str());
 }
@@ -98,8 +104,26 @@ void LiveMap::updateMasks() {
   if (!incomplete_ || in_scene_ == InScene::kAwaited) return;
   robot_->update(*editor_.world());
   if (robot_->unknown() >= unknown_) return;
-  process(*incomplete_, incomplete_received_, *robot_);
+  process(*incomplete_, incomplete_received_, *robot_, true);
   if (unknown_ == 0) incomplete_.reset();
+}
+
+/// Judges the last map's voxels again if objects of the scene have come or gone, or may have moved away from theirs.
+void LiveMap::judgeObjects() {
+  if (!map_ || in_scene_ != InScene::kTiles) return;
+  const std::shared_ptr<const CheckedWorld> world = editor_.world();
+  const ObjectsInMap in_map(history_, *world, frame_);
+  const std::vector<std::size_t> objects = in_map.objects();
+  const bool may_change = std::any_of(objects.begin(), objects.end(), [&](std::size_t object) {
+    return map_->isInMap(in_map.name(object), in_map.declared(object));
+  });
+  if (world->version() == judged_version_ && !may_change) return;
+  const auto masks =
+      in_map.masks(ros::Time(), [&](const auto& name, std::uint64_t declared) { return map_->isNew(name, declared); });
+  VoxelMap::Change change;
+  arena_.run([&] { change = map_->judgeAgain(masks); });
+  judged_version_ = world->version();
+  if (!change.made.empty() || !change.removed.empty()) apply(change, age_);
 }
 
 void LiveMap::waitForTf(const CheckedWorld& world, RobotInMap& robot) const {
@@ -143,7 +167,36 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, RobotInMap& r
   return robotMasks(world, robot.bodies());
 }
 
-void LiveMap::process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot) {
+/// A clock that went back, a reset, or a frame that moved: nothing is known any more of what was there before.
+void LiveMap::forgetIfMoved(const std::string& frame, const RobotInMap& robot, const ros::Time& stamp) {
+  const double limit = options_.padding + 0.5 * resolution_;
+  const bool has_moved = frame_watch_.hasMoved(frame, stamp, robot.bodies(), limit);
+  if (has_moved)
+    ROS_WARN(
+        "Map: its frame %s has moved by more than %s m where the robot is: what the robot touches there is taken "
+        "for its own voxels, as in the first map",
+        frame.c_str(), numberText(limit).c_str());
+  const bool is_time_back = ros::Time::now() < received_;
+  if (forgets_.exchange(false) || has_moved || is_time_back) map_->forget();
+}
+
+/// Makes a change of the map part of the scene. @param age  of the tiles then. @return whether there was one.
+bool LiveMap::apply(VoxelMap::Change& change, const std::shared_ptr<MapAge>& age) {
+  for (const std::string& name : change.removed) tiles_.erase(name);
+  for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
+  if (change.made.empty() && change.removed.empty() && in_scene_ == InScene::kTiles) return false;
+  markOutdated();  // if setMap() fails, the next map tries again
+  std::vector<BodyDescription> tiles;
+  tiles.reserve(tiles_.size());
+  for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
+  editor_.setMap(std::move(tiles), change.objects, age, arena_);
+  age_ = age;
+  in_scene_ = InScene::kTiles;
+  return true;
+}
+
+void LiveMap::process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot,
+                      bool is_again) {
   const auto start = std::chrono::steady_clock::now();
   if (message.data.size() > kMaxBytes) throw std::runtime_error("it is larger than 256 MiB");
   const std::string frame = frameOf(message);
@@ -152,37 +205,48 @@ void LiveMap::process(const octomap_msgs::Octomap& message, const ros::Time& rec
   VoxelMapOptions options = options_;
   options.band += 1.1 * kHalfSqrt3 * 0.5 * message.resolution;
   VoxelGrid grid(message.resolution, options);
+  if (map_ && frame == frame_) map_->watch(grid);
   grid.addOctree(message.data.data(), message.data.size(), message.id, message.binary != 0);
   const std::shared_ptr<const CheckedWorld> world = editor_.world();
-  const std::vector<VoxelMask> masks = masksOf(*world, robot);
+  VoxelMap::Surroundings around;
+  around.masks = masksOf(*world, robot);
+  around.is_robot_known = robot.isSomewhere();
+  around.is_again = is_again;
   const double read = secondsSince(start);
   if (!map_ || frame != frame_ || message.resolution != resolution_) begin(frame, message.resolution, options);
+  const ros::Time stamp(message.header.stamp.sec, message.header.stamp.nsec);
+  if (!is_again) forgetIfMoved(frame, robot, stamp);
+  around.objects = ObjectsInMap(history_, *world, frame).masks(stamp, [&](const auto& name, std::uint64_t declared) {
+    return map_->isNew(name, declared);
+  });
   VoxelMap::Change change;
-  arena_.run([&] { change = map_->take(grid, masks); });
-  for (const std::string& name : change.removed) tiles_.erase(name);
-  for (BodyDescription& tile : change.made) tiles_[tile.name] = std::move(tile);
+  arena_.run([&] { change = map_->update(grid, around); });
+  judged_version_ = world->version();
   const double built = secondsSince(start);
-  std::uint64_t version = world->version();
-  if (!change.made.empty() || !change.removed.empty() || in_scene_ != InScene::kTiles) {
-    markOutdated();  // if setMap() fails, the next map tries again
-    std::vector<BodyDescription> tiles;
-    tiles.reserve(tiles_.size());
-    for (const auto& [name, tile] : tiles_) tiles.push_back(tile);
-    std::shared_ptr<MapAge> age;
-    if (parameters_.max_age > 0.0) age = std::make_shared<MapAge>(parameters_.topic, parameters_.max_age, received);
-    version = editor_.setMap(std::move(tiles), age, arena_);
-    age_ = std::move(age);
-    in_scene_ = InScene::kTiles;
-  } else if (age_) {
-    age_->set(received);
-  }
+  const std::size_t made = change.made.size();
+  std::shared_ptr<MapAge> age;
+  if (parameters_.max_age > 0.0) age = std::make_shared<MapAge>(parameters_.topic, parameters_.max_age, received);
+  if (!apply(change, age) && age_) age_->set(received);
   unknown_ = robot.unknown();
+  unproven_ = change.unproven;
+  const std::string ignored =
+      "voxels of the map that touch the robot are ignored as its own, though they were there when they were first "
+      "seen: obstacles may be among them (map_voxels_unproven)";
+  warnings_.set("map voxels ignored", change.unproven > 0 ? ignored : "");
+  const bool keeps_all = change.unseen > 0 && !grid.hasFree();
+  const std::string kept = "the map on " + parameters_.topic +
+                           " shows no free space, so what was occupied in it stays an obstacle until the service reset";
+  warnings_.set("map without free space", keeps_all ? kept : "");
+  if (change.forgotten > 0)
+    ROS_WARN_THROTTLE(10.0, "Map: %zu voxels that the maps no longer know are forgotten, as they are too many",
+                      change.forgotten);
   ROS_INFO_THROTTLE(
       10.0,
-      "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's; scene version %lu after "
-      "%.1f ms (reading %.1f, tiles %.1f)",
-      change.occupied, tiles_.size(), change.made.size(), change.masked, static_cast<unsigned long>(version),
-      1e3 * secondsSince(start), 1e3 * read, 1e3 * (built - read));
+      "Map: %zu voxels in %zu tiles, %zu of them new, %zu voxels are the robot's, %zu are judged as objects; scene "
+      "version %lu after %.1f ms (reading %.1f, tiles %.1f)",
+      change.occupied, tiles_.size(), made, change.masked, change.in_objects,
+      static_cast<unsigned long>(editor_.world()->version()), 1e3 * secondsSince(start), 1e3 * read,
+      1e3 * (built - read));
 }
 
 }  // namespace sdf_ccd

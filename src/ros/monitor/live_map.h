@@ -12,8 +12,10 @@
 
 #include "monitor/map/voxel_map.h"
 #include "ros/messages/octomap_message.h"
-#include "ros/monitor/robot_in_map.h"
+#include "ros/monitor/map_frame_watch.h"
+#include "ros/monitor/objects_in_map.h"
 #include "ros/monitor/scene_editor.h"
+#include "ros/monitor/standing_warnings.h"
 
 namespace sdf_ccd {
 
@@ -29,6 +31,10 @@ namespace sdf_ccd {
 /// pose is no substitute, as real obstacles near it would be lost; it only tells where unknown space counts. Once tf
 /// knows more, the map is processed again.
 ///
+/// Nor is anything ignored that was occupied before the robot came near it (VoxelMemory): until a map shows it as free,
+/// it is an obstacle. Voxels in objects of the scene are judged as these (VoxelObjects), from the moment on that they
+/// are added; what an object leaves is the map's again.
+///
 /// Of a map that is older than the transforms (a latched one, made before the monitor started) this leaves all voxels:
 /// right for a map that was made without the robot. So it is for a map without a stamp.
 ///
@@ -38,16 +44,31 @@ namespace sdf_ccd {
 /// Runs in threads of its own, which wait for no request (SceneEditor::setMap()).
 class LiveMap {
  public:
+  /// What the map is, besides its topic.
+  struct Place {
+    std::string root_frame;      ///< of the robot
+    StandingWarnings& warnings;  ///< receives one while unproven() is not 0
+  };
+
   /// @param stop  ends the current work when it is set.
   LiveMap(const ros::NodeHandle& node, const MonitorParameters& parameters, SceneEditor& editor,
-          const TfHistory& history, const std::atomic<bool>& stop);
+          const TfHistory& history, const Place& place, const std::atomic<bool>& stop);
   ~LiveMap();
+
+  /// Number of voxels that are ignored as the robot's own though they may be obstacles: VoxelMemory::Seen::unproven.
+  std::size_t unproven() const { return unproven_; }
+
+  /// The next map is taken for the first one. May be called from any thread.
+  void forget() { forgets_ = true; }
 
  private:
   void run(const char* what, const std::function<void()>& job) const;
   void checkAge();
   void updateMasks();
-  void process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot);
+  void judgeObjects();
+  void forgetIfMoved(const std::string& frame, const RobotInMap& robot, const ros::Time& stamp);
+  bool apply(VoxelMap::Change& change, const std::shared_ptr<MapAge>& age);
+  void process(const octomap_msgs::Octomap& message, const ros::Time& received, RobotInMap& robot, bool is_again);
   void begin(const std::string& frame, double resolution, const VoxelMapOptions& options);
   void markOutdated();
   std::vector<VoxelMask> masksOf(const CheckedWorld& world, RobotInMap& robot) const;
@@ -75,8 +96,14 @@ class LiveMap {
   std::shared_ptr<MapAge> age_;                 // of the tiles; null before the first map, or if it does not count
   octomap_msgs::Octomap::ConstPtr incomplete_;  // the last map, if some poses at its stamp were not known
   ros::Time incomplete_received_;
-  std::unique_ptr<RobotInMap> robot_;  // in the last map
-  std::size_t unknown_ = 0;            // RobotInMap::unknown() of the present masks
+  ros::Time received_;  // when the last map was processed
+  std::unique_ptr<RobotInMap> robot_;           // in the last map
+  std::size_t unknown_ = 0;                     // RobotInMap::unknown() of the present masks
+  MapFrameWatch frame_watch_;
+  StandingWarnings& warnings_;
+  std::uint64_t judged_version_ = 0;  // of the world whose objects were judged last
+  std::atomic<std::size_t> unproven_{0};
+  std::atomic<bool> forgets_{false};
   ros::CallbackQueue queue_;
   ros::Subscriber subscriber_;
   ros::WallTimer age_timer_, masks_timer_;

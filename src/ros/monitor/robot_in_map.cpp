@@ -11,16 +11,16 @@ void RobotInMap::update(const CheckedWorld& world) {
   bodies_.clear();
   lags_.clear();
   problem_.clear();
-  unknown_ = 0;
+  unknown_ = lost_ = 0;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (world.scene().bodies[b].is_world) continue;
     const TrackedBody& body = world.bodies[b];
     const std::string frame = withoutLeadingSlash(body.frame);
-    const auto add = [&](const Isometry3d& X_WF, const Isometry3d& X_WM, bool is_at_stamp) {
-      bodies_.push_back({b, (X_WF * body.X_frame_B).inverse() * X_WM, is_at_stamp});
-    };
     const auto attached = world.attached_since.find(world.scene().bodies[b].name);
     const bool was_elsewhere = attached != world.attached_since.end() && attached->second > stamp_;
+    const auto add = [&](const Isometry3d& X_WF, const Isometry3d& X_WM, bool is_at_stamp) {
+      bodies_.push_back({b, (X_WF * body.X_frame_B).inverse() * X_WM, is_at_stamp, was_elsewhere});
+    };
     if (!was_elsewhere) {
       const Isometry3d *const X_WM = poseAtStamp(frame_), *const X_WF = poseAtStamp(frame);
       if (X_WM && X_WF) {
@@ -36,6 +36,7 @@ void RobotInMap::update(const CheckedWorld& world) {
       add(X_WF_now, X_WM_now, false);
     } else {
       ++unknown_;
+      ++lost_;
     }
   }
 }

@@ -14,6 +14,7 @@ std::vector<VoxelMask> robotMasks(const CheckedWorld& world, const std::vector<B
     if (!body.failure.empty() || description.geometry.empty()) continue;
     if (auto mask = maskOf(body, description, in_map.X_BM)) {
       mask->only_unknown = !in_map.is_at_stamp;
+      mask->is_guess = !in_map.is_at_stamp && !in_map.was_elsewhere;
       masks.push_back(std::move(*mask));
     } else {
       ROS_WARN_ONCE("Voxels that %s fills count, as it has no field", body.name.c_str());

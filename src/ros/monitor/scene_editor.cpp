@@ -130,7 +130,8 @@ bool SceneEditor::makeNext(Draft& draft) {
     std::vector<UnreachablePair> unreachable = draft.scene.unreachable(description);
     const auto snapshot = editor_->next(std::move(description), *draft.parts);
     if (!snapshot) return;
-    const auto world = std::make_shared<CheckedWorld>(snapshot, std::move(unreachable), draft.scene.attachedSince());
+    const auto world = std::make_shared<CheckedWorld>(snapshot, std::move(unreachable), draft.scene.attachedSince(),
+                                                      draft.scene.declared());
     world->map_age = draft.scene.mapAge();
     world->allowed_by_requests = draft.scene.allowedByRequests(*snapshot->description);
     draft.world = world;
@@ -214,10 +215,11 @@ std::shared_ptr<const CheckedWorld> SceneEditor::world() {
   return last_;
 }
 
-std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age, WorkArena& arena) {
+std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, TileObjects objects, std::shared_ptr<MapAge> age,
+                                  WorkArena& arena) {
   lowerPriority();
   Draft draft{Changer::kMap, *scene(), arena, nullptr, {}, nullptr};
-  draft.scene.setTiles(std::move(tiles), std::move(age));
+  draft.scene.setTiles(std::move(tiles), std::move(objects), std::move(age));
   build(draft);
   commit(draft);
   handover_.waitFor(draft.world->version());

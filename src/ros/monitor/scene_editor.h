@@ -42,11 +42,13 @@ class SceneEditor {
   void update(const UpdateScene::Request& request, UpdateScene::Response& response);
 
   /// Replaces the tiles of the live map. Waits for no request, but for the bookkeeping of one that is under way.
+  /// @param objects  as which some of them are judged.
   /// @param age    of the map; null if it never gets too old.
   /// @param arena  of the calling thread.
   /// @return the version with the new ones.
   /// @throws std::exception if they cannot be made; Cancelled. The scene does not change then.
-  std::uint64_t setMap(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age, WorkArena& arena);
+  std::uint64_t setMap(std::vector<BodyDescription> tiles, TileObjects objects, std::shared_ptr<MapAge> age,
+                       WorkArena& arena);
 
   /// The last version that was made. May be called from any thread.
   std::shared_ptr<const CheckedWorld> world();

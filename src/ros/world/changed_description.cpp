@@ -1,6 +1,7 @@
 // The description of a changing scene: its bodies, and the pairs that it leaves out.
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "common/counted.h"
@@ -54,6 +55,16 @@ bool ChangingScene::hasChanged(const std::string& body) const {
   return object == objects_.end() ? start_up_->link_names.count(body) == 0 : !object->second.is_unchanged;
 }
 
+/// Whether a tile's voxels are those of an object that is still where it was: its pairs are checked instead. An object
+/// that is changed or removed leaves its voxels to the map in the same version of the scene.
+bool ChangingScene::isJudgedAsObject(const BodyDescription& tile) const {
+  const auto judged = tile_objects_->find(tile.name);
+  if (judged == tile_objects_->end()) return false;
+  const auto object = objects_.find(judged->second.object);
+  return object != objects_.end() && object->second.declared == judged->second.declared &&
+         object->second.body.failure.empty();
+}
+
 /// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
 /// checked.
 /// @return their names, if there are rules.
@@ -90,7 +101,9 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->order < b->order; });
   for (const Object* object : ordered) scene.bodies.push_back(object->body);
   const std::size_t first_tile = scene.bodies.size();
-  if (tiles_) scene.bodies.insert(scene.bodies.end(), tiles_->begin(), tiles_->end());
+  if (tiles_)
+    std::copy_if(tiles_->begin(), tiles_->end(), std::back_inserter(scene.bodies),
+                 [&](const BodyDescription& tile) { return !isJudgedAsObject(tile); });
 
   const auto objectOf = [&](std::size_t body) -> const Object* {
     return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];

@@ -70,9 +70,9 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
     if (!body.is_world) {
       start_up->links.push_back(body);
     } else if (!body.map.empty()) {
-      setTiles({body}, nullptr);  // the awaited map
+      setTiles({body}, {}, nullptr);  // the awaited map
     } else {
-      objects_[body.name] = {body, "", {}, {}, ++added_, true};
+      objects_[body.name] = {body, "", {}, {}, ++added_, true, 0};
       start_up->objects.push_back(body.name);
     }
   }
@@ -140,7 +140,7 @@ void ChangingScene::set(BodyDescription body) {
   const auto known = objects_.find(body.name);
   const std::size_t order = known == objects_.end() ? ++added_ : known->second.order;
   const std::string name = body.name;
-  objects_[name] = {std::move(body), "", {}, {}, order, false};
+  objects_[name] = {std::move(body), "", {}, {}, order, false, ++declared_};
 }
 
 ChangingScene::Object& ChangingScene::find(const std::string& name) {
@@ -198,6 +198,7 @@ void ChangingScene::move(const SceneChange& change) {
   object.body.frame = frameOf(change, object.body.frame);
   object.body.X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
   object.is_unchanged = false;
+  object.declared = ++declared_;
 }
 
 void ChangingScene::erase(const SceneChange& change) {
@@ -232,6 +233,7 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   }
   const bool is_there = object.link == change.link && object.body.X_frame_B.matrix() == X_LB.matrix();
   if (!is_there) object.attached_since = change.header.stamp.isZero() ? sources.now : change.header.stamp;
+  if (!stays && !is_there) object.declared = ++declared_;
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
   object.body.is_world = false;
@@ -246,6 +248,7 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   const std::string frame = frameOf(change, start_up_->fixed_frame);
   if (const auto given = poseIn(change.pose)) {
     object.body.X_frame_B = *given;
+    object.declared = ++declared_;
   } else {
     object.body.X_frame_B =
         poseOf(sources.history, object.body.frame, frame, change.header.stamp) * object.body.X_frame_B;
@@ -319,6 +322,12 @@ std::map<std::string, ros::Time> ChangingScene::attachedSince() const {
   for (const auto& [name, object] : objects_)
     if (!object.link.empty()) since.emplace(name, object.attached_since);
   return since;
+}
+
+std::map<std::string, std::uint64_t> ChangingScene::declared() const {
+  std::map<std::string, std::uint64_t> declared;
+  for (const auto& [name, object] : objects_) declared.emplace(name, object.declared);
+  return declared;
 }
 
 std::string ChangingScene::text(const ChangeSources& sources, std::vector<std::string>& warnings) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/name_pair.h"
+#include "monitor/map/voxel_objects.h"
 #include "ros/tf/tf_history.h"
 #include "ros/world/describe_scene.h"
 #include "ros/world/map_age.h"
@@ -41,15 +42,18 @@ class ChangingScene {
   void set(BodyDescription body);
 
   /// Replaces the tiles of the live map.
-  /// @param age  of the map; null if it never gets too old.
-  void setTiles(std::vector<BodyDescription> tiles, std::shared_ptr<MapAge> age) {
+  /// @param objects  as which some of them are judged.
+  /// @param age      of the map; null if it never gets too old.
+  void setTiles(std::vector<BodyDescription> tiles, TileObjects objects, std::shared_ptr<MapAge> age) {
     tiles_ = std::make_shared<const std::vector<BodyDescription>>(std::move(tiles));
+    tile_objects_ = std::make_shared<const TileObjects>(std::move(objects));
     map_age_ = std::move(age);
   }
 
   /// Replaces them by those of another version of this scene.
   void setTilesOf(const ChangingScene& other) {
     tiles_ = other.tiles_;
+    tile_objects_ = other.tile_objects_;
     map_age_ = other.map_age_;
   }
 
@@ -73,6 +77,10 @@ class ChangingScene {
   /// Per attached object: since when it is where it is on its link.
   std::map<std::string, ros::Time> attachedSince() const;
 
+  /// Per object: the number of the change that last said what or where it is; 0: start-up. To attach an object, or to
+  /// detach it, where it is does not count.
+  std::map<std::string, std::uint64_t> declared() const;
+
   /// The world's objects in MoveIt's .scene format, in the fixed frame. Maps, which it cannot hold, are left out with a
   /// warning.
   /// @throws std::exception if tf does not know an object's pose, or an object's name cannot be saved.
@@ -86,6 +94,7 @@ class ChangingScene {
     std::vector<std::string> touch_links;
     std::size_t order = 0;      // rank in the order in which objects were added
     bool is_unchanged = false;  // since start-up
+    std::uint64_t declared = 0;
   };
   struct StartUp;  // data that does not change: the links, and the pairs that were left out at start-up
 
@@ -109,14 +118,17 @@ class ChangingScene {
   RuleIndex ruleIndex() const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
   bool hasChanged(const std::string& body) const;
+  bool isJudgedAsObject(const BodyDescription& tile) const;
   std::set<NamePair> keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const;
 
   std::shared_ptr<const StartUp> start_up_;
   std::map<std::string, Object> objects_;
   std::shared_ptr<const std::vector<BodyDescription>> tiles_;
+  std::shared_ptr<const TileObjects> tile_objects_;  // null if there are no tiles
   std::shared_ptr<MapAge> map_age_;
   std::vector<RequestRule> rules_;
-  std::size_t added_ = 0;  // number of objects ever added
+  std::size_t added_ = 0;       // number of objects ever added
+  std::uint64_t declared_ = 0;  // number of changes that said what or where an object is
 };
 
 }  // namespace sdf_ccd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +19,7 @@ struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
   std::vector<UnreachablePair> unreachable;         ///< left out as long as tf agrees with the URDF
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
+  std::map<std::string, std::uint64_t> declared;    ///< ObjectMask::declared per object; 0 if it is not listed
   std::vector<TrackedBody> bodies;
   double mask_error;                    ///< maskError()
   std::size_t allowed_by_requests = 0;  ///< pairs that requests allow to touch
@@ -25,10 +27,12 @@ struct CheckedWorld {
 
   /// @param left_out  also pairs that rules of the user allow to touch.
   CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
-               std::map<std::string, ros::Time> of_attached = {})
+               std::map<std::string, ros::Time> of_attached = {},
+               std::map<std::string, std::uint64_t> of_declared = {})
       : snapshot(std::move(of_snapshot)),
         unreachable(withoutAllowed(std::move(left_out), *snapshot->description)),
         attached_since(std::move(of_attached)),
+        declared(std::move(of_declared)),
         bodies(trackedBodies(*snapshot->scene)),
         mask_error(maskError(*snapshot->scene)) {}
 

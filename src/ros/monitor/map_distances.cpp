@@ -1,0 +1,23 @@
+#include "ros/monitor/map_distances.h"
+
+#include "common/number_text.h"
+
+namespace sdf_ccd {
+
+std::string distancesWithinPadding(const MonitorParameters& parameters) {
+  const double padding = parameters.live_map.padding;
+  const ProximityThresholds& thresholds = parameters.proximity.thresholds;
+  if (parameters.live_map.topic.empty()) return {};
+  std::string below;
+  for (const auto& [name, distance] :
+       {std::pair("stop_distance", thresholds.stop), std::pair("warning_distance", thresholds.warning)}) {
+    if (distance > 0.0 && distance < padding)
+      below += (below.empty() ? "" : " and ") + std::string(name) + " (" + numberText(distance) + " m)";
+  }
+  if (below.empty()) return {};
+  return below + " below octomap/padding (" + numberText(padding) +
+         " m): what a live map first shows within the padding of the robot is ignored as its own, and never as near as "
+         "that";
+}
+
+}  // namespace sdf_ccd
