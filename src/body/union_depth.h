@@ -59,15 +59,15 @@ inline PartExtent extentOf(const Isometry3d& X_BG, const DistanceField& field) {
   return {X_BG, {field.surfaceBox().min() - moved, field.surfaceBox().max() + moved}};
 }
 
-/// Upper bound of a point's depth in a body [m], of which that in one of its parts is known not to exceed `depth`: the
-/// same if no other part is as near.
+/// Upper bound of a point's depth in a body [m], of which that in one of its parts is known not to exceed `depth`; minus
+/// infinity if no other part is as near, so that the depth in the part is that in the body.
 inline double boundOfUnionDepth(const Body& body, const Vector3d& p_B, double depth) {
   int near = 0;
   for (const BodyPart& part : body.parts)
     near += part.field.lowerBound(part.X_BG.inverse() * p_B) <= depth + kTouchingParts;
-  if (near < 2) return depth;
+  if (near < 2) return -kInfinity;
   const auto extent = [&](std::size_t i) { return extentOf(body.parts[i].X_BG, body.parts[i].field); };
-  return std::max(depth, boundOfUnionDepth(body.parts.size(), extent, p_B));
+  return boundOfUnionDepth(body.parts.size(), extent, p_B);
 }
 
 }  // namespace sdf_ccd

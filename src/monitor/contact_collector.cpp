@@ -324,8 +324,7 @@ void ContactCollector::allowForUnions() {
     cancel.check();
     const BodyPart& part = solid.parts[found.part];
     const double in_part = found.contact.depth + std::max(part.field.errorBound(), found.contact.depth_error);
-    const double in_union = boundOfUnionDepth(solid, part.X_BG * found.p_F, in_part);
-    if (in_union > in_part) found.reach = std::max(found.reach, in_union);
+    found.reach = std::max(found.reach, boundOfUnionDepth(solid, part.X_BG * found.p_F, in_part));
   }
 }
 

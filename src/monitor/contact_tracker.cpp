@@ -205,7 +205,8 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
   const double proved = pair.deepest.time;
   contact.seen_at_samples |= holdsSample(isTimed(pair) ? interval : Interval{proved, proved}, cycle.samples);
   const double force = forceWhileTouching(cycle, pair);
-  if (!(force <= contact.max_force)) contact.max_force = force;  // what is not known in a cycle stays not known
+  // What is not known in a cycle stays not known.
+  if (!std::isnan(contact.max_force) && !(force <= contact.max_force)) contact.max_force = force;
   // If no interval has a proving point, as when surfaces are known to cross, each may be the contact.
   const auto isProvedWithin = [&](const Interval& other) { return isProved(pair, other); };
   const bool is_contact =

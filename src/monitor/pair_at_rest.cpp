@@ -12,6 +12,15 @@ Isometry3d PairChecker::poseAtRest() const {
   return relativeMotion().f() == pair_.body_a ? X_FP : X_FP.inverse();
 }
 
+/// Whether the bodies rested in this pose in the last cycle that was tested, too.
+bool PairChecker::hasRested() {
+  const Isometry3d X_AB = poseAtRest();
+  const BoundingBall& ball = scene_.bodies[pair_.body_b].ball;
+  const bool has = X_AB_rested_ && maxDisplacement(*X_AB_rested_, X_AB, ball) <= RestingAnswers::kMoved;
+  X_AB_rested_ = X_AB;
+  return has;
+}
+
 RestingAnswers::Bodies PairChecker::restingBodies() const {
   return {scene_.bodies.shared(pair_.body_a), scene_.bodies.shared(pair_.body_b)};
 }

@@ -96,6 +96,7 @@ void PairChecker::take(const PairChecker& other) {
   X_FP_last_ = other.X_FP_last_;
   untold_ = other.untold_;
   X_AB_as_it_came_ = other.X_AB_as_it_came_;
+  X_AB_rested_ = other.X_AB_rested_;
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
@@ -156,7 +157,11 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   const bool rests = resting_ && travel_ <= kStill && !inside_;  // inside_ is known from the motion before
   if (rests && isAnswered(bodies, request, result)) return;
   test(motion, bodies, request, given_error, margin, result);
-  if (rests) answerOnce(bodies, request, result);
+  if (!rests) {
+    X_AB_rested_.reset();
+  } else if (hasRested()) {  // so that bodies that turn round are not answered for nothing
+    answerOnce(bodies, request, result);
+  }
 }
 
 void PairChecker::test(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,

@@ -114,6 +114,7 @@ class PairChecker {
   // Of a pair whose bodies rest relative to each other:
   Isometry3d poseAtRest() const;
   RestingAnswers::Bodies restingBodies() const;
+  bool hasRested();
   bool isAnswered(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
   void answerOnce(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
   std::shared_ptr<const RestingAnswer> findAtRest(const Isometry3d& X_AB, const CycleRequest& request) const;
@@ -162,6 +163,7 @@ class PairChecker {
   Isometry3d X_FP_last_ = Isometry3d::Identity();   // of surfaces_ or the first role; valid if one of these is known
   std::optional<Untold> untold_;
   std::optional<Isometry3d> X_AB_as_it_came_;  // there the answer depends on the motion before
+  std::optional<Isometry3d> X_AB_rested_;  // in the last cycle that was tested, if the bodies rested
 
   // Of this cycle:
   double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]

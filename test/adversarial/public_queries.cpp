@@ -80,7 +80,7 @@ BoxTree treeOf(const std::vector<Vector3d>& corners) {
   return BoxTree({{Corners{a, b, c}, 0.0}});
 }
 
-Separation separate(const PublicQuery& query, double resolution) {
+sdf_ccd::Separation separate(const PublicQuery& query, double resolution) {
   const BoxTree a = treeOf(query.a), b = treeOf(query.b);
   const Isometry3d start = Isometry3d::Identity();
   const ScrewMotion X_WA(start, displaced(query.path_a)), X_WB(start, displaced(query.path_b));
@@ -89,7 +89,7 @@ Separation separate(const PublicQuery& query, double resolution) {
       relativeMotionBounds(worldTwist(X_WA, a.ball()), worldTwist(X_WB, b.ball())).acceleration};
   SeparationWitness witness;
   SeparationMemory memory;
-  return separation(a, b, motion, {0.0, resolution, 1'000'000}, witness, memory);
+  return sdf_ccd::separation(a, b, motion, {0.0, resolution, 1'000'000}, witness, memory);
 }
 
 /// The prism over a convex polygon that is counterclockwise seen from the extrusion's end.

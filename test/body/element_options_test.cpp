@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "body/body_options.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -51,9 +53,12 @@ TEST(ElementOptions, WhatIsGivenHoldsEverywhere) {
       EXPECT_EQ(shellOptionsFor(options, area, growth).spacing, 0.003);
     EXPECT_EQ(*fieldOptionsFor(options, area).cell_size, 1.2 * 0.003);
   }
-  EXPECT_FALSE(mayBeCoarser(options));
-  EXPECT_TRUE(mayBeCoarser(optionsForContacts()));
-  EXPECT_TRUE(mayBeCoarser(optionsFor({0.001, {}})));
+  EXPECT_FALSE(mayShellBeCoarser(options) || mayFieldBeCoarser(options));
+  EXPECT_TRUE(mayShellBeCoarser(optionsForContacts()) && mayFieldBeCoarser(optionsForContacts()));
+  EXPECT_TRUE(mayShellBeCoarser(optionsFor({0.001, {}})) && mayFieldBeCoarser(optionsFor({0.001, {}})));
+  BodyOptions given = optionsForContacts();
+  setFieldResolution({}, given);
+  EXPECT_TRUE(mayShellBeCoarser(given) && !mayFieldBeCoarser(given));
 }
 
 }  // namespace

@@ -98,8 +98,9 @@ TEST(PointGroups, BearTheForceOfTheirPoints) {
       double force;
       const Wrench expected = deep.byAllPoints(force), found = deep.grouped();
       if (force == 0.0) continue;
-      // In the room the nearest face changes within groups; far from that, forces are exact.
-      const double error = solid == &kRoom ? 0.02 : solid == &kBall ? 5e-3 : 1e-5;
+      // In the room the nearest face changes within groups, near the ball's centre its direction: up to 5 and 0.8 % of all
+      // forces' amounts in these cases. Elsewhere forces are exact.
+      const double error = solid == &kRoom ? 0.08 : solid == &kBall ? 0.015 : 1e-5;
       EXPECT_LT((found.force - expected.force).norm(), error * force) << i;
       const Vector3d arm = X.translation();  // about the shell's middle
       const Vector3d torque_error = (found.torque - arm.cross(found.force)) - (expected.torque - arm.cross(expected.force));

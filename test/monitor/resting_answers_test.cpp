@@ -130,9 +130,11 @@ TEST(RestingAnswers, OfIdenticalMeshesAreFoundOnce) {
     const CycleResult& result = monitor.run(together(0.1 * i, 0.1 * (i + 1), Isometry3d::Identity()), request);
     EXPECT_TRUE(mayTouch(result.verdict));
     const auto known = scene->resting->find({scene->bodies.shared(0), scene->bodies.shared(1)}, Isometry3d::Identity(),
-                                            1e-9, request, {});
-    ASSERT_TRUE(known);
-    EXPECT_EQ(known->result.verdict, result.verdict);
+                                            1e-6, request, {});
+    ASSERT_EQ(known != nullptr, i > 0) << "once they have rested for two cycles";
+    if (known) {
+      EXPECT_EQ(known->result.verdict, result.verdict);
+    }
   }
   EXPECT_EQ(times.longest(*scene), "a - b (100 %)");
   // What moves is tested again.

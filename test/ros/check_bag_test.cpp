@@ -68,7 +68,8 @@ TEST_F(CheckBag, PairsThatAreSetAsideAreSaidAtTheEnd) {
     bag.write("joint_states", state.header.stamp, state);
   }
   bag.close();
-  write("cart.yaml", "cache: false\n");
+  // The lamp is checked against the ground, so that there is something to check.
+  write("cart.yaml", "cache: false\nworld: [{name: ground, type: box, size: [4, 4, 0.1], xyz: [0, 0, -2]}]\n");
   const ToolRun result = run("check-bag cart.bag --urdf cart.urdf --config cart.yaml --out made");
   ASSERT_EQ(result.exit_code, kDone) << result.error;
   const std::string told = "\n1 pair that overlaps at rest is set aside: base - wheel (";

@@ -22,13 +22,13 @@ TEST_F(ContactLogTest, SaysWhenAContactBeginsAndEnds) {
   cycle({kThrough});
   std::vector<std::string> said = lines();
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0], "Contact begins: hand - table at 100.000, 10.0 mm deep so far");
+  EXPECT_EQ(said[0], "Contact begins: hand - table at 100.000, 10 mm deep so far");
   cycle({kThrough});
   EXPECT_TRUE(lines().empty());
   cycle({});
   said = lines();
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].find("Contact ends: hand - table at 100.200 after 0.200 s, up to 10.0 mm deep"), 0u) << said[0];
+  EXPECT_EQ(said[0].find("Contact ends: hand - table at 100.200 after 0.200 s, up to 10 mm deep"), 0u) << said[0];
   EXPECT_NE(said[0].find(", 6 N"), std::string::npos) << said[0];
 }
 

@@ -112,10 +112,12 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
                            fine(0.001));
   loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
   CycleRequest request;
-  request.max_time = 1e-3;
-  for (int i = 0; i < 3; ++i) {
-    sendHand(10.0 + i * kPeriod, 0.3 + 0.05 * i);
+  // Some time suffices for the verdict, but not for the contact, however busy the machine is.
+  request.max_time = 5e-4;
+  for (int i = 0; i < 60 && (i < 2 || loop_->result().incomplete == 0); ++i) {
+    sendHand(10.0 + i * kPeriod, 0.3 + 0.01 * (i % 2));
     loop_->step(ros::Time(10.0 + i * kPeriod), request);
+    request.max_time *= 1.2;
   }
   const ContactArray said = toContactArray(*loop_);
   ASSERT_EQ(said.pairs.size(), 1u);
@@ -134,8 +136,11 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   DescribedScene described = describedWorld();
   described.scene.bodies.resize(3);
-  described.unreachable = {
-      {0, 1, {Vector3d::Zero(), 0.1}, {Vector3d::Zero(), 0.1}, {}, {}}};  // of each other, although they are close
+  UnreachablePair pair;  // of each other, although they are close
+  pair.ball_a = pair.ball_b = {Vector3d::Zero(), 0.1};
+  pair.body_a = 0;
+  pair.body_b = 1;
+  described.unreachable = {pair};
   loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);

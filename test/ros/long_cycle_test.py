@@ -17,7 +17,8 @@ class LongCycleTest(MasterCase):
         rospy.init_node('long_cycle_test', disable_signals=True)
         # The forces of some hundred thousand points take longer than the limit.
         self.start_monitor('collision_monitor', sliders().replace('radius="0.02"', 'radius="0.5"'), {
-            'shell': {'spacing': 0.003}, 'max_latency': LIMIT, 'rate': 5.0, 'velocity_scale': {'max_speed': 1.0}})
+            'shell': {'spacing': 0.003}, 'max_latency': LIMIT, 'rate': 5.0, 'max_cycle_time': 0.0,
+            'overlapping_pairs': 'check', 'velocity_scale': {'max_speed': 1.0}})
         contacts = Recorder('/collision_monitor/contacts', ContactArray, PATIENCE)
         states = Recorder('/collision_monitor/state', MonitorState, PATIENCE)
         scales = Recorder('/collision_monitor/velocity_scale', Float64, PATIENCE)

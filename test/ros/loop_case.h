@@ -41,6 +41,7 @@ class MonitorLoopTest : public ::testing::Test {
     MonitorParameters parameters;
     parameters.monitor = soft();
     parameters.tf.max_latency = max_latency;
+    parameters.contact_join = {};  // a contact ends where it ends
     parameters.tf.max_cycle = max_cycle;
     loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), describedWorld(), parameters);
     said_.clear();

@@ -36,7 +36,8 @@ class MapMemoryTest(MasterCase):
         rospy.init_node('map_memory_test', disable_signals=True)
         cls.start_monitor('monitor', sliders(), {
             'shell': {'spacing': 0.002}, 'max_latency': 2.0, 'stop_distance': 0.005,
-            'octomap': {'topic': '/map', 'padding': PADDING}})
+            'octomap': {'topic': '/map', 'padding': PADDING},
+            'requests': {'allow': ['add', 'move', 'attach', 'rules', 'clear', 'reset', 'limits']}})
         cls.robot = MovingBalls(other=(0.0, -5.0))
         cls.maps = rospy.Publisher('/map', Octomap, queue_size=1)
         cls.contacts = Recorder('/monitor/contacts', ContactArray, PATIENCE)

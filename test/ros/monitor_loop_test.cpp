@@ -195,6 +195,7 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
       sendFoot(now);
       send(stampedTransform("odom", "world", now, x * i / 29.0));
       step(now);
+      loop_->watchFixedFrame();
     }
     return toMonitorState(*loop_, ros::Time(12.0)).warnings;
   };

@@ -26,7 +26,7 @@ class OverlapWarnings : public ::testing::Test {
     };
     const std::string ball = "<sphere radius='0.01'/>";
     parameters_.urdf = "<robot name='cart'>" + link("base", "<box size='1 1 0.2'/>") + link("caster", ball, "-0.5") +
-                       link("wheel", "<sphere radius='0.1'/>") + link("l1", ball, "9") + link("l2", ball, "9") +
+                       link("wheel", "<sphere radius='0.04'/>") + link("l1", ball, "9") + link("l2", ball, "9") +
                        link("boom", "<sphere radius='0.2'/>") + hinge("base", "caster", "0") +
                        hinge("caster", "wheel", "0") + hinge("base", "l1", "5") + hinge("l1", "l2", "1") +
                        hinge("l2", "boom", "-5.75") + "</robot>";

@@ -73,7 +73,7 @@ TEST_P(StockRobots, MoveAtFullScaleInAnEmptyWorld) {
   const std::string srdf = GetParam().srdf;
   if (!srdf.empty()) parameters.srdf = test::readText(test::dataPath("robots/" + srdf));
   const PackageFinder packages = packagesFromEnvironment();
-  const DescribedScene described =
+  DescribedScene described =
       describeScene(parameters, [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); });
   const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
   const std::shared_ptr<const Scene> scene = buildDescribed(described, plan, parameters.scene, {});

@@ -61,7 +61,7 @@ TEST_F(LostWalls, TheDefaultKeepsThem) {
 
 /// What cannot be kept within the limits is named, with the thickness that is.
 TEST_F(LostWalls, TheDefaultNamesWhatItCannotKeep) {
-  write("foil.off", off(boxMesh({0.1, 0.1, 5e-6})));
+  write("foil.off", off(merged(boxMesh({0.1, 0.1, 5e-6}), translated(boxMesh({0.01, 0.01, 0.0137}), {0.3, 0, 0.0373}))));
   const ToolRun run = this->run("query --mesh foil.off --segments in.csv --out out.csv");
   EXPECT_EQ(run.exit_code, kDone);
   EXPECT_NE(run.error.find(kLost), std::string::npos) << run.error;
@@ -80,7 +80,7 @@ TEST_F(LostWalls, TheFieldsFileHoldsTheShare) {
     // Both sides of the plate, and none of its edges nor of the block: 0.08 of 0.0838 m^2.
     double percent = 0.0;
     ASSERT_EQ(std::sscanf(info.out.c_str() + at, "thin walls: %lf %%", &percent), 1) << info.out;
-    EXPECT_NEAR(percent, 95.5, 1.0) << option;
+    EXPECT_NEAR(percent, 95.5, 1.5) << option;
     EXPECT_NE(run("query --field made/plate.field --segments in.csv --out out.csv").error.find(kLost),
               std::string::npos);
   }

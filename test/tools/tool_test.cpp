@@ -110,13 +110,13 @@ TEST_F(Tool, WhatIsNotCertainOfAMeshIsWarnedOf) {
   write("through.csv", "0,0,-0.2,0,0,0.2\n");
   const ToolRun query = run("query --mesh cupboard.off --segments through.csv --out out.csv --resolution 64");
   EXPECT_EQ(query.exit_code, kDone);
-  EXPECT_EQ(query.error, "sdf_ccd: cupboard.off" + warning);
+  EXPECT_EQ(query.error.find("sdf_ccd: cupboard.off" + warning), 0u) << query.error;  // and that walls are too thin
   int segment = -1;
   double enter = 0.0, exit = 0.0;
   std::sscanf(readText(path("out.csv")).c_str(), "segment,t_enter,t_exit\n%d,%lf,%lf", &segment, &enter, &exit);
   EXPECT_EQ(segment, 0);
   EXPECT_NEAR(0.4 * (exit - enter), 0.061, 0.01);
-  EXPECT_EQ(run("build --mesh cupboard.off --out made --resolution 16").error, "sdf_ccd: cupboard" + warning);
+  EXPECT_EQ(run("build --mesh cupboard.off --out made --resolution 16").error.find("sdf_ccd: cupboard" + warning), 0u);
   EXPECT_EQ(run("info ball.off").error, "");
 }
 

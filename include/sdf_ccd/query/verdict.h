@@ -24,6 +24,8 @@ bool operator>=(Verdict, Verdict) = delete;
 
 /// Whether `a` is more severe than `b`: CLEAR, NOT_CHECKED, UNCERTAIN, CONTACT, the most severe last.
 bool isWorse(Verdict a, Verdict b);
+
+/// The more severe of two.
 inline Verdict worseOf(Verdict a, Verdict b) {
   return isWorse(b, a) ? b : a;
 }
@@ -36,6 +38,7 @@ inline bool mayTouch(Verdict verdict) {
 /// The most severe of several verdicts.
 class WorstVerdict {
  public:
+  /// Adds one of them.
   void add(Verdict verdict) { worst_ = worst_ ? worseOf(*worst_, verdict) : verdict; }
 
   /// NOT_CHECKED if there are none.

@@ -50,6 +50,7 @@ void CheckedBag::addTransforms(const RecordedTransforms& transforms) {
 }
 
 void CheckedBag::addCycle(const ContactArray& contacts, const ros::Time& now) {
+  loop_.watchFixedFrame();
   bag_.write(kMonitor + "contacts", now, contacts);
   const CycleSafety& safety = proximity_.measure(lists_distances_);
   MonitorState state = toMonitorState(loop_, now);

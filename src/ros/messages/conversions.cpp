@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "monitor/pair_result.h"
 #include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {

@@ -240,6 +240,7 @@ void CollisionMonitor::publishCycle() {
   last_idle_ = ros::WallTime();
   const boost::shared_ptr<MonitorState> state = state_messages_.take();
   const ros::Time sent = ros::Time::now();
+  loop_->watchFixedFrame();
   setMonitorState(*loop_, sent, *state);
   state->map_voxels_unproven = live_map_ ? static_cast<std::uint32_t>(live_map_->unproven()) : 0;
   outputs_->publish(state, proximity_->measure(*state));

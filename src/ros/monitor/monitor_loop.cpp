@@ -8,6 +8,7 @@
 #include "monitor/scene_difference.h"
 #include "monitor/summarise.h"
 #include "ros/monitor/unchecked.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -164,7 +165,6 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     request_ = request;
     run(request);
     trackContacts(request);
-    watchFixedFrame();
   }
   return step;
 }

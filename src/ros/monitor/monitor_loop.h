@@ -74,6 +74,9 @@ class MonitorLoop {
   /// @param change  made by prepare() since the last adopt().
   void adopt(LoopChange& change);
 
+  /// To be called after each cycle: warns if the fixed frame moves. Looks at it every 0.2 s, and allocates memory then.
+  void watchFixedFrame();
+
   /// Of the world that it checks, and what others add. The loop's own: which pairs overlap at rest, and whether they
   /// are set aside or checked; that the fixed frame moves in tf, like the base of a mobile robot, and objects of the
   /// world are fixed in it, so that they move with it. It is kept from then on, also while the robot rests.
@@ -118,7 +121,6 @@ class MonitorLoop {
   void trackContacts(const CycleRequest& request);
   OverlapTexts overlapTexts(const Scene& scene) const;
   void setOverlaps(OverlapTexts& texts);
-  void watchFixedFrame();
   std::string movingFixedFrame() const;
 
   std::shared_ptr<const CheckedWorld> world_;
