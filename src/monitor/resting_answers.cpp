@@ -29,10 +29,10 @@ bool contains(const CycleRequest& known, const CycleRequest& wanted) {
          known.refine == wanted.refine;
 }
 
-/// A larger error leaves open what a smaller one does; what a smaller one proves, a larger one may not.
+/// A larger error leaves open what a smaller one does; what a larger one proves, a smaller one does, too.
 bool holdsFor(const RestingAnswer& answer, double error) {
-  if (answer.error > RestingAnswers::errorFor(error)) return false;  // a smaller one may tell more
-  return answer.result.verdict == Verdict::kUncertain || error <= answer.error;
+  if (answer.result.verdict == Verdict::kContact) return error <= answer.error;
+  return answer.error <= RestingAnswers::errorFor(error) + RestingAnswers::kMoved;
 }
 
 /// Poses of a body over a span of a cycle.
@@ -55,12 +55,6 @@ class SpanPoses {
 };
 
 }  // namespace
-
-double RestingAnswers::errorFor(double error) {
-  double rounded = 2.0 * kMoved;
-  while (rounded < error + kMoved) rounded *= 2.0;
-  return rounded;
-}
 
 std::shared_ptr<const RestingAnswer> RestingAnswers::find(const Bodies& bodies, const Isometry3d& X_AB, double error,
                                                           const CycleRequest& request,
@@ -113,7 +107,8 @@ void setResting(const RestingAnswer& answer, const SweptBodies& bodies, double e
   };
   result.verdict = known.verdict;
   result.error = known.error;
-  result.error.chord += std::max(0.0, error - answer.error);
+  // Depths are those of the pose itself, whatever its error was.
+  result.error.chord = std::max(error, known.error.chord + error + RestingAnswers::kMoved - answer.error);
   result.contact_error = known.contact_error;
   result.refined = known.refined;
   for (const Interval& interval : known.intervals)

@@ -40,8 +40,8 @@ class RestingAnswers {
   /// A pose within this is the same one [m]: far more than rounding, and far less than what anyone can measure.
   static constexpr double kMoved = 1e-8;
 
-  /// The error for which an answer is found, if this is needed: the answer then holds for similar ones, too.
-  static double errorFor(double error);
+  /// The error for which an answer is found, if this is needed: other poses within kMoved have it, too.
+  static double errorFor(double error) { return error + 2.0 * kMoved; }
 
  private:
   struct Entry {

@@ -72,14 +72,15 @@ class Arrivals {
 TEST(Schedule, SaysWhatTestingEveryPairSays) {
   std::vector<BodyDescription> bodies;
   for (int i = 0; i < kBalls; ++i) bodies.push_back(body("ball " + std::to_string(i), Primitive(Sphere{kRadius})));
-  const auto robots = build(bodies, fine(0.02));
+  const auto buildTwice = [&] { return std::pair(build(bodies, fine(0.02)), build(bodies, fine(0.02))); };
+  const auto robots = buildTwice();
   constexpr int kOfWorld = 3;
   for (int i = kBalls - kOfWorld; i < kBalls; ++i) bodies[std::size_t(i)].is_world = true;
-  const auto robots_in_world = build(bodies, fine(0.02));
+  const auto robots_in_world = buildTwice();
   int skipped = 0, near = 0, clear = 0;
   for (unsigned seed = 0; seed < 12; ++seed) {
-    const auto& scene = seed < 6 ? robots : robots_in_world;
-    Monitor skipping(scene, {}), sparing(scene, {}), testing(scene, {});
+    const auto& [scene, own_scene] = seed < 6 ? robots : robots_in_world;
+    Monitor skipping(scene, {}), sparing(scene, {}), testing(own_scene, {});  // which shares no answers
     Arrivals arrivals(seed, scene->pairs.size(), seed < 6 ? 0 : kOfWorld);
     for (int i = 0; i < 300; ++i) {
       const CycleMotion motion = arrivals.next();
@@ -93,7 +94,7 @@ TEST(Schedule, SaysWhatTestingEveryPairSays) {
       ASSERT_EQ(a.verdict, b.verdict);
       ASSERT_EQ(c.verdict, b.verdict);
       ASSERT_EQ(c.skipped, a.skipped);
-      ASSERT_EQ(c.error_bound, a.error_bound);
+      ASSERT_NEAR(c.error_bound, a.error_bound, 1e-6);
       skipped += a.skipped;
       double worst = 0.0;
       for (std::size_t p = 0; p < a.pairs.size(); ++p) {
