@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "common/time_limit.h"
 #include "oracle/busy_machine.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -40,12 +41,19 @@ inline double secondsToEnd(const std::function<void()>& work, double cancelled_a
   return std::chrono::duration<double>(end - start).count();
 }
 
-/// Cancels work at moments all through it. Where that takes too long it is tried again, as a virtual machine may stand
+/// Cancels work at moments all through it, or through its first seconds. Where that takes too long it is tried again, as a virtual machine may stand
 /// still for as long; a stretch without a check takes too long every time.
 /// @param soon  how long it may go on then [s]; no longer than half of it all, where that is quick.
 inline void expectEndsSoon(const std::function<void()>& work, int moments, double soon) {
   constexpr int kTries = 4;
-  const double whole = secondsOf(work), limit = std::min(soon, 0.5 * whole) * slowness();
+  constexpr double kLongest = 2.0;  // [s]
+  const double whole = secondsOf([&] {
+    try {
+      withinSeconds(kLongest, "", work);
+    } catch (const TookTooLong&) {
+    }
+  });
+  const double limit = std::min(soon, 0.5 * whole) * slowness();
   double worst = 0.0, when = 0.0;
   for (int i = 0; i < moments; ++i) {
     const double after = whole * i / moments;
