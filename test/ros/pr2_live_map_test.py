@@ -122,11 +122,11 @@ class Pr2LiveMapTest(MasterCase):
         return answer.scene_version
 
     def send_map(self, lump, count):
-        """Sends a map that differs from the last one by a row of the wall. The other lump is free space."""
-        low = 1.8 + SIZE * (count % 3)
-        row = voxels((2.0, 2.05), (-1.0, 1.0), (low, low + SIZE))
-        other = LUMPS[lump is LUMPS[0]]
-        sent = message({**dict.fromkeys(voxels(*other[:3]), False), **voxels(*WALL), **row, **voxels(*lump[:3])})
+        """Sends a map that differs from the last one by a row of the wall. Other rows and lumps are free space."""
+        rows = [voxels((2.0, 2.05), (-1.0, 1.0), (low, low + SIZE)) for low in (1.8, 1.8 + SIZE, 1.8 + 2 * SIZE)]
+        free = [voxels(*LUMPS[lump is LUMPS[0]][:3])] + rows
+        sent = message({**{key: False for part in free for key in part}, **voxels(*WALL), **rows[count % 3],
+                        **voxels(*lump[:3])})
         sent.header = Header(stamp=rospy.Time.now(), frame_id='base_footprint')
         self.maps.publish(sent)
 
