@@ -152,6 +152,8 @@ double slackOf(const BodyTriangles::Voxels& voxels, const Vector3d& p) {
 std::size_t BodyTriangles::bytes() const {
   std::size_t bytes = tree.bytes() + (closed ? closed->bytes() : 0) + element.size() * sizeof(element[0]);
   for (const Voxels& of_map : voxels) bytes += of_map.solid->bytes();
+  for (const auto& solid : solids)
+    if (solid) bytes += solid->tree().bytes();
   return bytes;
 }
 

@@ -3,12 +3,33 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "body/body_surface.h"
+#include "body/body_triangles.h"
 #include "body/build_body.h"
+#include "geometry/trees/triangle_tree.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{32} << 20;  // limits of the unused bodies that are kept
+
+std::size_t bytesOf(const TriangleMesh& mesh) {
+  return mesh.vertices.size() * sizeof(Vector3d) + mesh.triangles.size() * sizeof(Vector3i);
+}
+
+std::size_t bytesOf(const SharedValue<PointShell>& shell, const SharedValue<SphereTree>& tree) {
+  return shell->size() * PointShell::kBytesPerPoint + tree->nodes.size() * sizeof(SphereTree::Node);
+}
+
+/// Of all that it has, also what it shares with others: reports count that for one of them.
+std::size_t bytesOf(const Body& body) {
+  std::size_t bytes = bytesOf(body.shell, body.tree) + bytesOf(body.witnesses, body.witness_tree);
+  for (const BodyPart& part : body.parts) bytes += part.field.bytes();
+  if (body.surface) bytes += bytesOf(body.surface->mesh) + body.surface->tree.bytes();
+  if (body.triangles) bytes += body.triangles->bytes();
+  if (body.doubtful) bytes += body.doubtful->bytes();
+  return bytes;
+}
 
 /// Whether a body that was prepared with these needs also has all that `wanted` requires.
 bool cover(const BodyNeeds& mine, const BodyNeeds& wanted) {
@@ -80,8 +101,7 @@ void PreparedBodies::dropUnused(std::uint64_t version) {
   std::sort(unused.rbegin(), unused.rend());  // the most recent first
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < unused.size(); ++i) {
-    const BodyReport& report = bodies_[unused[i].second].report;
-    bytes += report.field_bytes + report.shell_bytes;
+    bytes += bytesOf(*bodies_[unused[i].second].body);
     if (i >= kUnused || bytes > kUnusedBytes) bodies_.erase(unused[i].second);
   }
 }

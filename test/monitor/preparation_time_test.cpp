@@ -16,9 +16,9 @@ namespace {
 
 using namespace test;
 
-constexpr double kLimit = 0.25, kSlack = 0.5;  // [s]
+constexpr double kLimit = 0.25, kSlack = 0.5;  // on an idle machine [s]
 
-BodyOptions limited(double seconds = kLimit) {
+BodyOptions limited(double seconds = kLimit * slowness()) {
   BodyOptions options = fine();
   options.max_preparation_time = seconds;
   return options;

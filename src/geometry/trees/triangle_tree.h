@@ -89,6 +89,11 @@ class TriangleTree {
   /// @param visited  if given, the number of visited nodes and triangles is added to it.
   bool inside(const Vector3d& p, Inside rule, std::size_t* visited = nullptr) const;
 
+  std::size_t bytes() const {
+    return nodes_.size() * sizeof(Node) + quads_.size() * sizeof(Quad) + expansions_.size() * sizeof(Expansion) +
+           triangles_.size() * sizeof(Triangle) + (ids_.size() + positions_.size()) * sizeof(std::int32_t);
+  }
+
  private:
   using Triangle = MeasuredTriangle;
   /// Children are consecutive and come after their parent.
