@@ -46,6 +46,26 @@ TEST_F(RequestPermissionsTest, EachKindOfChangeNeedsItsPermission) {
   }
 }
 
+TEST_F(RequestPermissionsTest, ToAttachOrDetachNeitherAddsNorMoves) {
+  permit({"attach"});
+  SceneChange speck = box("table");
+  speck.type = SceneChange::ATTACH;
+  speck.link = "arm";
+  SceneChange moved = attach("table");
+  moved.pose.position.x = 90.0;
+  moved.pose.orientation.w = 1.0;
+  for (const SceneChange& wanted : {speck, moved}) expectRefused(wanted, "requests/allow does not hold move");
+  speck.object = "box";
+  expectRefused(speck, "requests/allow does not hold add");
+  apply(attach("table"));
+  moved.type = SceneChange::DETACH;
+  expectRefused(moved, "requests/allow does not hold move");
+  moved.pose = {};
+  moved.header.frame_id = "belt";
+  expectRefused(moved, "requests/allow does not hold move");
+  EXPECT_EQ(refusal(change(SceneChange::DETACH, "table")), "");
+}
+
 TEST_F(RequestPermissionsTest, ByDefaultAllButLimitsIsAllowed) {
   EXPECT_EQ(refusal(box("table")), "");
   EXPECT_EQ(refusal(change(SceneChange::CLEAR)), "");
@@ -73,6 +93,63 @@ TEST_F(RequestPermissionsTest, ARuleDoesNotReachAProtectedBodyThatComesLater) {
   EXPECT_EQ(reason("box", "arm"), "checked");
   EXPECT_EQ(reason("bax", "arm"), "update_scene: b?x* - arm");
   EXPECT_EQ(scene_->allowedByRequests(description()), 1u);
+}
+
+/// Else who may add an object, and allow it to touch, could take any part of a protected map from the checks.
+TEST_F(RequestPermissionsTest, VoxelsOfAProtectedMapAreNotJudgedAsAnObjectOfRequests) {
+  BodyDescription of_box, of_table;
+  of_box.name = "octomap/0_0_0/box";
+  of_table.name = "octomap/0_0_0/table";
+  for (BodyDescription* tile : {&of_box, &of_table}) {
+    tile->frame = "base";
+    tile->is_world = true;
+    tile->map = "octomap";
+  }
+  for (const bool is_protected : {false, true}) {
+    permit({"add", "move", "rules"}, is_protected ? std::vector<std::string>{"octomap/*"} : std::vector<std::string>());
+    const auto setTiles = [&] {
+      const auto declared = scene_->declared();
+      scene_->setTiles({of_box, of_table},
+                       {{of_box.name, {"box", declared.at("box")}}, {of_table.name, {"table", declared.at("table")}}},
+                       nullptr);
+    };
+    apply({box(), rule(SceneChange::ALLOW, "box", "arm")});
+    setTiles();
+    EXPECT_EQ(body(of_box.name).name.empty(), !is_protected);
+    EXPECT_TRUE(body(of_table.name).name.empty()) << "of the parameters";
+    apply(box("table"));
+    setTiles();
+    EXPECT_EQ(body(of_table.name).name.empty(), !is_protected) << "replaced";
+  }
+}
+
+/// A grasp touches the fingers, and what is next to the hand; not the rest of the robot.
+TEST_F(RequestPermissionsTest, TouchLinksFarFromTheHandAreToldAlsoIfEachIsNamed) {
+  parameters_.urdf =
+      R"(<robot name="r"><link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision>
+      </link>)";
+  const char* const names[] = {"base", "upper", "fore", "wrist", "hand", "finger", "tip"};
+  for (int i = 1; i < 7; ++i)
+    parameters_.urdf += std::string("<link name=\"") + names[i] +
+                        R"("><collision><geometry><sphere radius="0.1"/></geometry></collision></link><joint name="j)" +
+                        names[i] + R"(" type="continuous"><axis xyz="0 0 1"/><origin xyz="1 0 0"/><parent link=")" +
+                        names[i - 1] + R"("/><child link=")" + names[i] + R"("/></joint>)";
+  parameters_.urdf += "</robot>";
+  described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
+  permit({"add", "move", "attach"});
+  const auto told = [&](const std::vector<std::string>& touch_links, const char* link = "hand") {
+    SceneChange made = box();
+    made.type = SceneChange::ATTACH;
+    made.link = link;
+    made.touch_links = touch_links;
+    apply(made);
+    return scene_->weakened(description());
+  };
+  EXPECT_EQ(told({"hand", "finger", "tip", "wrist", "fore"}), "");
+  EXPECT_EQ(told({"upper", "fore", "wrist", "hand", "finger", "tip"}, "upper"), "") << "a hand of many joints";
+  EXPECT_EQ(told({"finger", "upper", "base"}), "requests allow 2 pairs to touch, for example base - box");
+  EXPECT_EQ(told({"upper", "fore", "wrist", "hand"}, "base"),
+            "requests allow 2 pairs to touch, for example wrist - box");
 }
 
 TEST_F(RequestPermissionsTest, WhatRequestsTakeFromTheChecksIsTold) {

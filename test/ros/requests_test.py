@@ -107,7 +107,8 @@ class RequestsTest(MasterCase):
         monitor = dynamic_reconfigure.client.Client('/stock', timeout=20.0)
         scale = dynamic_reconfigure.client.Client('/stock/velocity_scale', timeout=20.0)
         for client, wrong in ((monitor, {'rate': 1.0}), (monitor, {'stop_distance': 0.01}),
-                              (monitor, {'warning_distance': 0.05}), (monitor, {'max_cycle_time': 1e-9}),
+                              (monitor, {'warning_distance': 0.05}), (monitor, {'hysteresis': 0.0}),
+                              (monitor, {'max_cycle_time': 1e-9}),
                               (scale, {'reaction_time': 0.0}), (scale, {'deceleration': 1e6}),
                               (scale, {'max_age': 9.0}), (scale, {'max_speed': 0.1}),
                               (scale, {'max_acceleration': 0.0}), (scale, {'period': 1e-3})):

@@ -93,7 +93,8 @@ std::string whyBeyond(const CollisionMonitorConfig& config, const CollisionMonit
                     {"max_cycle_time", config.max_cycle_time, start.max_cycle_time, Limit::kEqual},
                     {"report_distance", config.report_distance, start.report_distance, Limit::kNotLess},
                     {"warning_distance", config.warning_distance, start.warning_distance, Limit::kNotLess},
-                    {"stop_distance", config.stop_distance, start.stop_distance, Limit::kNotLess}});
+                    {"stop_distance", config.stop_distance, start.stop_distance, Limit::kNotLess},
+                    {"hysteresis", config.hysteresis, start.hysteresis, Limit::kNotLess}});
 }
 
 std::string whyBeyond(const VelocityScaleConfig& config, const VelocityScaleConfig& start) {

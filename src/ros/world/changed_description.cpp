@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/counted.h"
+#include "robot/joint_chain.h"
 #include "ros/world/changing_scene_start_up.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -61,8 +62,28 @@ bool ChangingScene::isJudgedAsObject(const BodyDescription& tile) const {
   const auto judged = tile_objects_->find(tile.name);
   if (judged == tile_objects_->end()) return false;
   const auto object = objects_.find(judged->second.object);
-  return object != objects_.end() && object->second.declared == judged->second.declared &&
-         object->second.body.failure.empty();
+  if (object == objects_.end() || object->second.declared != judged->second.declared) return false;
+  // What requests have put into a protected map takes nothing of it from the checks.
+  const bool is_of_requests = object->second.declared > 0;
+  return object->second.body.failure.empty() && !(is_of_requests && start_up_->permissions.isProtected(tile.name));
+}
+
+/// Whether no grasp has the bodies touch, though touch_links allow it: more than two joints move between their links,
+/// and neither is a part of the hand that holds the other.
+bool ChangingScene::isNoGrasp(const AllowedPair& pair) const {
+  constexpr std::size_t kNearJoints = 2;
+  const RobotModel& robot = *start_up_->robot;
+  const auto linkOf = [&](const std::string& body) {
+    const auto object = objects_.find(body);
+    return robot.find(object == objects_.end() ? body : object->second.link);
+  };
+  const auto isInHand = [&](const std::string& object, int link) {
+    int hand = objects_.count(object) > 0 ? linkOf(object) : 0;
+    while (hand > 0 && robot.jointAbove(hand).type == urdf::Joint::FIXED) hand = robot.parent(hand);
+    return hand > 0 && isBelow(robot, link, hand);
+  };
+  const int a = linkOf(pair.body_a), b = linkOf(pair.body_b);
+  return jointsThatMove(robot, a, b).size() > kNearJoints && !isInHand(pair.body_a, b) && !isInHand(pair.body_b, a);
 }
 
 /// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
@@ -155,8 +176,9 @@ std::string ChangingScene::weakened(const SceneDescription& description) const {
            std::any_of(object->second.touch_links.begin(), object->second.touch_links.end(), isPattern);
   };
   for (const AllowedPair& pair : description.allowed) {
-    const bool by_pattern = pair.reason == kTouchLinks && (uses_patterns(pair.body_a) || uses_patterns(pair.body_b));
-    if (!by_pattern && !rules.allowing(pair.body_a, pair.body_b)) continue;
+    const bool by_touch_links =
+        pair.reason == kTouchLinks && (uses_patterns(pair.body_a) || uses_patterns(pair.body_b) || isNoGrasp(pair));
+    if (!by_touch_links && !rules.allowing(pair.body_a, pair.body_b)) continue;
     if (pairs++ == 0) first = pairName(pair.body_a, pair.body_b);
   }
   std::string text;

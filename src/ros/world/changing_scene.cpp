@@ -96,10 +96,14 @@ void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
       return erase(change);
     case SceneChange::ATTACH:
       requireAllowed(permissions.attach, "attach", "ATTACH");
+      if (objects_.count(change.object) == 0 || hasShapes(change) || poseIn(change.pose))
+        requireAddable(change.object, "ATTACH");
       if (objects_.count(change.object) > 0) permissions.requireUnprotected(change.object, "ATTACH");
       return attach(change, sources);
     case SceneChange::DETACH:
       requireAllowed(permissions.attach, "attach", "DETACH");
+      if (poseIn(change.pose) || frameOf(change, start_up_->fixed_frame) != start_up_->fixed_frame)
+        requireAllowed(permissions.move, "move", "DETACH to a pose or a frame");
       permissions.requireUnprotected(change.object, "DETACH");
       return detach(change, sources);
     case SceneChange::ALLOW:

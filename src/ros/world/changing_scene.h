@@ -70,8 +70,8 @@ class ChangingScene {
   /// Number of the description's pairs that requests allow to touch, by rules or by touch_links.
   std::size_t allowedByRequests(const SceneDescription& description) const;
 
-  /// What requests have taken from the checks, as a warning; empty if nothing. Touch_links that name each link are not
-  /// in it: every grasp has some.
+  /// What requests have taken from the checks, as a warning; empty if nothing. Touch_links that name links near the
+  /// object's are not in it: every grasp has some.
   std::string weakened(const SceneDescription& description) const;
 
   /// Per attached object: since when it is where it is on its link.
@@ -119,6 +119,7 @@ class ChangingScene {
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
   bool hasChanged(const std::string& body) const;
   bool isJudgedAsObject(const BodyDescription& tile) const;
+  bool isNoGrasp(const AllowedPair& pair) const;
   std::set<NamePair> keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const;
 
   std::shared_ptr<const StartUp> start_up_;
