@@ -207,6 +207,7 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
             0u)
       << warnings[0];
   EXPECT_EQ(toUncheckedState(1, "world", "", ros::Time(12.0), &loop_->warnings()).warnings, warnings);
+  EXPECT_EQ(toUncheckedState(0, "", "building fields", ros::Time(), nullptr).proximity, MonitorState::STOP);
 }
 
 TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {

@@ -217,6 +217,7 @@ MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fi
   message.header.frame_id = fixed_frame;
   message.verdict = MonitorState::NOT_CHECKED;
   message.reason = reason;
+  message.proximity = MonitorState::STOP;  // also before it is known whether there are thresholds
   return message;
 }
 
