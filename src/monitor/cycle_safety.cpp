@@ -93,8 +93,10 @@ CycleSafety judgeNoCycle(const SafetyRules& rules, SafetyMemory& memory) {
 std::string promiseText(const StoppingPromise& promise) {
   const std::string world = "if nothing but the robot moves, nothing of the world comes closer than its stop distance";
   return promise.own_pairs == OwnPairs::kPromise
-             ? world + ", and no two of its links do"
-             : world + "; of its own links nothing is promised: they limit by their measured closing motion alone";
+             ? world + ", and no two of its links do, if each joint keeps to the scale times its limit of speed"
+             : world +
+                   "; of its own links nothing is promised (a table in the URDF is one): they limit by their "
+                   "measured closing motion alone";
 }
 
 std::string rangeText(const SafetyRules& rules) {

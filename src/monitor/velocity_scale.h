@@ -11,7 +11,7 @@ namespace sdf_ccd {
 /// How pairs of the robot's own links limit the velocity scale.
 enum class OwnPairs {
   kMeasured,  ///< by the speed at which they close as measured: measuredScale(), which proves nothing
-  kPromise,   ///< as pairs with the world: allowedClosing()
+  kPromise,   ///< as pairs with the world: allowedClosing(), if no joint is faster than the scale times its limit
 };
 
 /// What a robot that obeys a velocity scale promises, and what it is promised in turn: no pair with the world and,

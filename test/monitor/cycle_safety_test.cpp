@@ -130,9 +130,11 @@ TEST_F(CycleSafetyTest, TextsSayWhatHolds) {
             "velocity_scale: a robot at rest gets 0 where something of the world is closer than 112 mm, and 1 where "
             "everything is farther than 650 mm; pairs of its own links limit while they close");
   EXPECT_EQ(promiseText(promise).find("if nothing but the robot moves"), 0u);
-  EXPECT_NE(promiseText(promise).find("of its own links nothing is promised"), std::string::npos);
+  EXPECT_NE(promiseText(promise).find("of its own links nothing is promised (a table in the URDF is one)"),
+            std::string::npos);
   promise.own_pairs = OwnPairs::kPromise;
   EXPECT_EQ(promiseText(promise).find("nothing is promised"), std::string::npos);
+  EXPECT_NE(promiseText(promise).find("if each joint keeps to the scale times its limit of speed"), std::string::npos);
 }
 
 }  // namespace
