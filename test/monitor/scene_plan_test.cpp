@@ -51,6 +51,15 @@ TEST(ScenePlan, LeavesOutPairsThatCannotMove) {
   EXPECT_EQ(plan.pairs.size(), 4u);
 }
 
+/// Such as of a map that the robot's base carries: while it drives, obstacles come in it.
+TEST(ScenePlan, ATileOfAMapChangesInItsFrame) {
+  BodyDescription tile = body("map/0_0_0", meshShape(boxMesh({1, 1, 1})), true);
+  tile.frame = "base";
+  tile.map = "map";
+  tile.geometry[0].watertight_voxels = true;
+  EXPECT_EQ(planScene({{body("base", kBall), tile}, {}}).pairs.size(), 1u);
+}
+
 TEST(ScenePlan, PairsOfTheWorldAreNotListed) {
   SceneDescription scene;
   for (int i = 0; i < 1000; ++i) scene.bodies.push_back(body("object " + std::to_string(i), kBall, true));

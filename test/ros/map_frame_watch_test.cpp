@@ -43,6 +43,7 @@ TEST(MapFrameWatch, ACorrectedLocalisationIsAMotionADrivingRobotIsNone) {
     EXPECT_FALSE(watch.hasMoved("map", ros::Time(111), robotAt(1.0 + driven), kLimit)) << fixed;
     send(112, 1.10, driven);
     EXPECT_FALSE(watch.hasMoved("map", ros::Time(112), robotAt(1.0 + driven), kLimit)) << fixed;
+    EXPECT_FALSE(watch.isCarried()) << fixed;
   }
 }
 
@@ -66,8 +67,10 @@ TEST(MapFrameWatch, AFrameThatTheRobotCarriesMoves) {
     moved += watch.hasMoved("camera", ros::Time(t), robotAt(0.0), kLimit);
   }
   EXPECT_EQ(moved, 6);  // 0.38 m
+  EXPECT_TRUE(watch.isCarried());
   EXPECT_FALSE(watch.hasMoved("nowhere", ros::Time(119), robotAt(0.0), kLimit));
   EXPECT_FALSE(watch.hasMoved("base", ros::Time(119), robotAt(0.0), kLimit));
+  EXPECT_FALSE(watch.isCarried());
 }
 
 }  // namespace

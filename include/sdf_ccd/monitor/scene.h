@@ -76,11 +76,12 @@ struct PlanOptions {
 /// need a field.
 ///
 /// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
-/// same frame, or of a body without geometry; fields and shells that no pair uses; shells of bodies with a half-space
-/// or a voxel map among their geometry (these cannot be covered with points). A body that is one large primitive (a
-/// table, a wall) only has a field against bodies too small to contain it: their shells against its exact field detect
-/// every contact of the surfaces. If it is a box and edges are sampled separately, its points on edges are kept: with
-/// them, contacts are detected to the edge gap instead of the spacing. All others are tested in both roles.
+/// same frame (unless one is a tile of a map, which changes there), or of a body without geometry; fields and shells
+/// that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot be covered
+/// with points). A body that is one large primitive (a table, a wall) only has a field against bodies too small to
+/// contain it: their shells against its exact field detect every contact of the surfaces. If it is a box and edges are
+/// sampled separately, its points on edges are kept: with them, contacts are detected to the edge gap instead of the
+/// spacing. All others are tested in both roles.
 ///
 /// No pair is left out because it cannot be tested. A pair of two bodies without a shell (an attached map and a map or
 /// a half-space of the world) stays, and is NOT_CHECKED; Scene::warnings name it. So is a pair with a body that cannot

@@ -110,7 +110,8 @@ LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
     if (isProof(pair.reason) && pair.proof) reason.proof = pair.body_a == a.name ? pair.proof : reversed(*pair.proof);
     return reason;
   }
-  if (a.frame == b.frame) return {"in the same frame", 0.0, inSameFrame(a, b)};
+  const bool has_tile = !a.map.empty() || !b.map.empty();  // what a map shows comes and goes, wherever its frame is
+  if (a.frame == b.frame && !has_tile) return {"in the same frame", 0.0, inSameFrame(a, b)};
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
   return {};

@@ -176,6 +176,10 @@ void LiveMap::forgetIfMoved(const std::string& frame, const RobotInMap& robot, c
         "Map: its frame %s has moved by more than %s m where the robot is: what the robot touches there is taken "
         "for its own voxels, as in the first map",
         frame.c_str(), numberText(limit).c_str());
+  const std::string blind = "the frame " + frame + " of the map on " + parameters_.topic +
+                            " moves: where that brings an obstacle within octomap/padding of the robot, it is ignored "
+                            "as the robot's own voxels. Publish the map in a frame that does not move";
+  warnings_.set("map frame", frame_watch_.isCarried() ? blind : "");
   const bool is_time_back = ros::Time::now() < received_;
   if (forgets_.exchange(false) || has_moved || is_time_back) map_->forget();
 }

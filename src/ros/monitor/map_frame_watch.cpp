@@ -22,7 +22,10 @@ std::string MapFrameWatch::reference(const std::string& frame) const {
 bool MapFrameWatch::hasMoved(const std::string& frame, const ros::Time& stamp, const std::vector<BodyInMap>& bodies,
                              double distance) {
   const std::string reference = this->reference(frame);
-  if (reference != reference_ || frame != frame_) X_RM_.reset();
+  if (reference != reference_ || frame != frame_) {
+    X_RM_.reset();
+    is_carried_ = false;
+  }
   frame_ = frame;
   reference_ = reference;
   if (reference.empty()) return false;
@@ -40,6 +43,8 @@ bool MapFrameWatch::hasMoved(const std::string& frame, const ros::Time& stamp, c
     return body.is_at_stamp && !((X_MM * p_M - p_M).norm() <= distance);
   });
   if (has_moved) X_RM_ = X_RM;
+  const std::vector<std::string> above = history_.framesAbove(history_.fixedFrame());
+  is_carried_ |= has_moved && std::find(above.begin(), above.end(), frame) == above.end();
   return has_moved;
 }
 

@@ -24,12 +24,16 @@ class MapFrameWatch {
   bool hasMoved(const std::string& frame, const ros::Time& stamp, const std::vector<BodyInMap>& bodies,
                 double distance);
 
+  /// Whether the frame has moved with the robot, or whatever else it is below in tf: no localisation was corrected.
+  bool isCarried() const { return is_carried_; }
+
  private:
   std::string reference(const std::string& frame) const;
 
   const TfHistory& history_;
   std::string root_frame_, frame_, reference_;
   std::optional<Isometry3d> X_RM_;  // pose of the frame in the reference
+  bool is_carried_ = false;
 };
 
 }  // namespace sdf_ccd
