@@ -166,6 +166,55 @@ TEST(VoxelObjects, AnAttachedObjectThatCreepsIntoTheMapGainsNothing) {
   EXPECT_EQ(later.judged(), 0U);
 }
 
+/// By who tracks its pose in the hand: each answer says anew where it is, while the robot pushes it into the map.
+TEST(VoxelObjects, WhatIsAttachedAnewGainsNothing) {
+  const Voxels all = block(-7, 7);
+  const auto heldAt = [](double z, std::uint64_t declared) {
+    ObjectMask held = boxAt({0, 0, z}, kHalf, declared);
+    held.is_attached = true;
+    return held;
+  };
+  ObjectMask lost = heldAt(0.0, 0);
+  lost.isWithin = nullptr;
+  for (const bool is_lost : {false, true}) {
+    ObjectInMap map;
+    map.update(all, {heldAt(0.6, 1)});
+    std::uint64_t declared = 1;
+    for (double z = 0.58; z > 0.0; z -= 0.02) {
+      ++declared;
+      lost.declared = declared;
+      if (is_lost) map.judge({lost});  // tf does not know yet where it is
+      map.judge({heldAt(z, declared)});
+      EXPECT_EQ(map.judged(), 0U) << z;
+      map.update(all, {heldAt(z, declared)});
+      EXPECT_EQ(map.judged(), 0U) << z;
+    }
+    EXPECT_EQ(map.checked(), all.size());
+  }
+  // It keeps what it has.
+  ObjectInMap grasped;
+  grasped.update(all, {boxAt({0, 0, 0}, kHalf)});
+  const Voxels had = near(all, {0, 0, 0}, kHalf), there = near(all, {0.05, 0, 0}, kHalf);
+  ObjectMask moved = boxAt({0.05, 0, 0}, kHalf);
+  moved.is_attached = true;
+  grasped.judge({moved});
+  moved.declared = 2;
+  grasped.judge({moved});
+  grasped.expect(all, minus(had, minus(had, there)), "attached anew");
+}
+
+TEST(VoxelObjects, WhatIsNotKnownYetGainsLater) {
+  const Voxels all = block(-7, 7);
+  ObjectMask held = boxAt({0, 0, 0}, kHalf), lost = held;
+  held.is_attached = lost.is_attached = true;
+  lost.isWithin = nullptr;
+  ObjectInMap map;
+  map.update(all, {lost});
+  EXPECT_EQ(map.judged(), 0U);
+  map.judge({held});
+  map.expect(all, near(all, {0, 0, 0}, kHalf), "known");
+}
+
 TEST(VoxelObjects, WhatTwoObjectsContainIsOneTilesVoxel) {
   const Voxels all = block(-7, 7);
   ObjectMask a = boxAt({0, 0, 0}, kHalf), b = boxAt({0.1, 0, 0}, kHalf);

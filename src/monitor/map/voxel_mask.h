@@ -47,7 +47,8 @@ struct ObjectMask {
   bool is_at_stamp = false;              ///< its pose is that at the map's stamp; else a later one
   Vector3d center_M = Vector3d::Zero();  ///< of a ball that contains it, in the map's frame M [m]
   double radius = 0.0;                   ///< [m]; infinite for half-spaces
-  /// Whether a point is certainly in the object, or within a limit of it [m].
+  /// Whether a point is certainly in the object, or within a limit of it [m]. Null: it is not known where an attached
+  /// object is; it has no voxels then.
   std::function<bool(const Vector3d& p_M, double limit)> isWithin;
 };
 

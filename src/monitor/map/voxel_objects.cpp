@@ -36,15 +36,25 @@ TileMap common(const TileMap& a, const TileMap& b) {
 }  // namespace
 
 bool VoxelObjects::judge(const TileMap& visible, double size, const std::vector<ObjectMask>& objects, bool is_new_map) {
+  static const TileMap kNone;
   std::map<std::string, Found> found;
   bool has_changed = false;
   for (const ObjectMask& object : objects) {
     const auto last = found_.find(object.name);
+    const bool was_attached = last != found_.end() && last->second.is_attached;
     const bool is_new = isNew(object.name, object.declared);
-    const bool may_gain = is_new || (is_new_map && object.is_at_stamp && !object.is_attached);
-    Found now{object.declared, voxelsIn(object, may_gain ? visible : common(last->second.voxels, visible), size)};
-    has_changed |= is_new ? !now.voxels.empty() || (last != found_.end() && !last->second.voxels.empty())
-                          : now.voxels != last->second.voxels;
+    const TileMap& had = last == found_.end() ? kNone : last->second.voxels;
+    Found now{object.declared, object.is_attached, {}};
+    if (!object.isWithin) {
+      if (last == found_.end()) continue;
+      now.declared = last->second.declared;
+    } else if (is_new ? !(was_attached && object.is_attached)
+                      : is_new_map && object.is_at_stamp && !object.is_attached) {
+      now.voxels = voxelsIn(object, visible, size);
+    } else {
+      now.voxels = voxelsIn(object, common(had, visible), size);
+    }
+    has_changed |= is_new ? !now.voxels.empty() || !had.empty() : now.voxels != had;
     found.emplace(object.name, std::move(now));
   }
   for (const auto& [name, last] : found_) has_changed |= found.count(name) == 0 && !last.voxels.empty();

@@ -22,11 +22,13 @@ using TileObjects = std::map<std::string, TileObject>;  ///< by the tile's name
 ///
 /// An object of the world has the voxels in which it is when a map is made. Between maps, voxels only leave it, when it
 /// moves away from them. An attached object is itself checked against the map, so it must not free what the robot
-/// pushes it into: it only keeps voxels that it had before it was attached, or has where it is attached.
+/// pushes it into: it only keeps voxels that it had before it was attached, or has where it is attached. To attach it
+/// anew, as by who tracks its pose in the hand, gains it nothing.
 class VoxelObjects {
  public:
   struct Found {
     std::uint64_t declared = 0;
+    bool is_attached = false;
     TileMap voxels;  ///< may be empty
   };
 

@@ -19,30 +19,51 @@ std::uint64_t ObjectsInMap::declared(std::size_t object) const {
   return known == world_.declared.end() ? 0 : known->second;
 }
 
-/// Whether a frame is one of the robot's, and may move in the map.
+/// Whether a frame may move in the map with the robot: on the way from the frame up to where it meets the map's in tf
+/// is one of the robot's.
 bool ObjectsInMap::movesWithRobot(const std::string& frame) const {
-  if (frame == frame_) return false;
-  const BodyList& bodies = world_.scene().bodies;
-  const bool is_of_robot = std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-    return !body.is_world && withoutLeadingSlash(body.frame) == frame;
-  });
+  const std::vector<std::string> above_map = history_.framesAbove(frame_), above = history_.framesAbove(frame);
+  const auto isAboveMap = [&](const std::string& name) {
+    return name == frame_ || std::find(above_map.begin(), above_map.end(), name) != above_map.end();
+  };
+  const auto isOfRobot = [&](const std::string& name) {
+    const BodyList& bodies = world_.scene().bodies;
+    return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+      return !body.is_world && withoutLeadingSlash(body.frame) == name;
+    });
+  };
+  if (isAboveMap(frame)) return false;
+  const auto meet = std::find_if(above.begin(), above.end(), isAboveMap);
+  if (!isOfRobot(frame) && std::none_of(above.begin(), meet, isOfRobot)) return false;
   const auto isStatic = [&](const std::string& name) {
     const TfSpan span = history_.span(name);
     return name == history_.fixedFrame() || (span.problem.empty() && span.is_static);
   };
-  return is_of_robot && !(isStatic(frame) && isStatic(frame_));
+  return !(isStatic(frame) && isStatic(frame_));
 }
 
-bool ObjectsInMap::lookup(std::size_t object, const ros::Time& time, Isometry3d& X_BM) const {
+/// Where the object is with its present pose in its frame. @param time  0: the latest that tf knows.
+std::optional<ObjectMask> ObjectsInMap::maskAt(std::size_t object, const ros::Time& time) const {
   const TrackedBody& body = world_.bodies[object];
   Isometry3d X_WM, X_WF;
   std::string problem;
   if (!history_.lookup(frame_, time, X_WM, problem) ||
       !history_.lookup(withoutLeadingSlash(body.frame), time, X_WF, problem)) {
-    return false;
+    return std::nullopt;
   }
-  X_BM = (X_WF * body.X_frame_B).inverse() * X_WM;
-  return true;
+  return objectMaskOf(world_.scene().bodies[object], world_.description().bodies[object],
+                      (X_WF * body.X_frame_B).inverse() * X_WM);
+}
+
+/// Of an object that was attached at a time, and is new to the map: where it was then and still is.
+std::optional<ObjectMask> ObjectsInMap::graspedMask(std::size_t object, const ros::Time& attached) const {
+  const std::optional<ObjectMask> then = maskAt(object, attached);
+  std::optional<ObjectMask> mask = maskAt(object, ros::Time());
+  if (!then || !mask) return std::nullopt;  // later, when tf knows it
+  mask->isWithin = [was_within = then->isWithin, is_within = mask->isWithin](const Vector3d& p_M, double limit) {
+    return was_within(p_M, limit) && is_within(p_M, limit);
+  };
+  return mask;
 }
 
 std::vector<ObjectMask> ObjectsInMap::masks(
@@ -52,19 +73,21 @@ std::vector<ObjectMask> ObjectsInMap::masks(
     const Body& body = world_.scene().bodies[b];
     const auto attached = world_.attached_since.find(body.name);
     const bool is_attached = attached != world_.attached_since.end();
-    Isometry3d X_BM;
+    std::optional<ObjectMask> mask;
     bool is_at_stamp = false;
     if (is_attached && is_new(body.name, declared(b))) {
-      if (!lookup(b, attached->second, X_BM)) continue;  // later, when tf knows it
+      mask = graspedMask(b, attached->second);
     } else {
-      is_at_stamp = !stamp.isZero() && lookup(b, stamp, X_BM);
-      if (!is_at_stamp && !lookup(b, ros::Time(), X_BM)) continue;
+      if (!stamp.isZero()) mask = maskAt(b, is_attached ? std::max(stamp, attached->second) : stamp);
+      is_at_stamp = mask.has_value();
+      if (!mask) mask = maskAt(b, ros::Time());
     }
-    auto mask = objectMaskOf(body, world_.description().bodies[b], X_BM);
-    if (!mask) continue;
+    const bool moves_with_robot = is_attached || movesWithRobot(withoutLeadingSlash(body.frame));
+    if (!mask && !moves_with_robot) continue;
+    if (!mask) mask.emplace();
     mask->name = body.name;
     mask->declared = declared(b);
-    mask->is_attached = is_attached || movesWithRobot(withoutLeadingSlash(body.frame));
+    mask->is_attached = moves_with_robot;
     mask->is_at_stamp = is_at_stamp;
     masks.push_back(std::move(*mask));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,8 @@
 namespace sdf_ccd {
 
 /// Where the objects of the scene are in a map, according to tf: at the map's stamp, else now, if that is known. An
-/// object that was attached to a link is where it was at that time, if it is new to the map. What moves with one of the
-/// robot's frames counts as attached.
+/// object that was attached to a link and is new to the map is where it was at that time and still is. What moves with
+/// one of the robot's frames, in the tree of tf, counts as attached.
 ///
 /// The masks refer to the world.
 class ObjectsInMap {
@@ -33,7 +34,8 @@ class ObjectsInMap {
 
  private:
   bool movesWithRobot(const std::string& frame) const;
-  bool lookup(std::size_t object, const ros::Time& time, Isometry3d& X_BM) const;
+  std::optional<ObjectMask> maskAt(std::size_t object, const ros::Time& time) const;
+  std::optional<ObjectMask> graspedMask(std::size_t object, const ros::Time& attached) const;
 
   const TfHistory& history_;
   const CheckedWorld& world_;
