@@ -1,3 +1,4 @@
+#include <chrono>
 #include <fstream>
 #include <limits>
 
@@ -192,6 +193,37 @@ TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   apply(box("octomap"));
   scene_->setTiles({}, {}, nullptr);
   EXPECT_TRUE(description().has_live_map) << "the next map may have tiles";
+}
+
+/// Whatever rules and touch_links requests have made: a map has to wait for none of them to be applied again.
+TEST_F(ChangingSceneTest, AMapPaysForNoPatternAnew) {
+  const std::string name(240, 'a'), pattern = "*" + std::string(120, 'a') + "b*";
+  std::vector<SceneChange> changes;
+  for (int i = 0; i < 60; ++i) {
+    const std::string number = std::to_string(i);
+    changes.push_back(box(name + number));
+    changes.push_back(rule(SceneChange::ALLOW, pattern + number, pattern));
+    changes.push_back(box(name + "held" + number));
+    changes.back().type = SceneChange::ATTACH;
+    changes.back().link = "arm";
+    changes.back().touch_links.assign(10, pattern + number);
+  }
+  apply(changes);
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto start = now();
+  const std::size_t allowed = description().allowed.size();
+  const auto first = now();
+  BodyDescription tile;
+  tile.name = "octomap/0_0_0";
+  tile.map = "octomap";
+  tile.frame = "base";
+  tile.is_world = true;
+  for (int i = 0; i < 5; ++i) {
+    ChangingScene next = *scene_;
+    next.setTiles({tile}, {}, nullptr);
+    EXPECT_EQ(next.description(limits_).allowed.size(), allowed);
+  }
+  EXPECT_LT(now() - first, first - start) << "for five of them";
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::string textOf(const RequestRule& rule) {
 }  // namespace
 
 RuleIndex ChangingScene::ruleIndex() const {
-  return {rules_, start_up_->permissions};
+  return {rules_, start_up_->permissions, settled_ ? settled_->matches : nullptr};
 }
 
 /// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
@@ -41,11 +41,15 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
     return std::any_of(patterns.begin(), patterns.end(),
                        [&](const auto& pattern) { return matches(pattern, touched); });
   };
-  const bool may_touch = mayTouch(object.touch_links, other.name) ||
-                         (known != objects_.end() && mayTouch(known->second.touch_links, name));
-  const RequestPermissions& permissions = start_up_->permissions;
-  const bool is_protected = permissions.isProtected(name) || permissions.isProtected(other.name);
-  if (are_of_robot && may_touch && !is_protected) return kTouchLinks;
+  const auto is_protected = [&] {
+    return start_up_->permissions.isProtected(name) || start_up_->permissions.isProtected(other.name);
+  };
+  const auto may_touch = [&] {
+    checkCancelled();
+    return mayTouch(object.touch_links, other.name) ||
+           (known != objects_.end() && mayTouch(known->second.touch_links, name));
+  };
+  if (are_of_robot && may_touch() && !is_protected()) return kTouchLinks;
   const std::string allowed = whyAllowed(start_up_->rules, name, other.name);
   return allowed.empty() && proved ? kRigidlyJoined : allowed;
 }
@@ -110,6 +114,40 @@ std::set<NamePair> ChangingScene::keepAllowed(RuleIndex& rules, std::vector<Allo
   return kept;
 }
 
+/// Adds a pair to the allowed ones, if there is a reason. @param a, b  null if the body is no object.
+void ChangingScene::leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b,
+                             const Object* b, RuleIndex& rules, const std::set<NamePair>& left_out,
+                             std::vector<AllowedPair>& allowed) const {
+  if (body_a.is_world && body_b.is_world) return;
+  const bool is_tile = !body_b.map.empty();
+  const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
+  if (!is_new && rules_.empty() && (!is_tile || start_up_->rules.allowed.empty())) return;
+  const RequestRule* rule = rules.last(body_a.name, body_b.name);
+  bool proved = false;
+  std::string reason;
+  if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
+  if (reason.empty() && !proved && is_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
+  if (rule) reason = rule->is_allowed ? textOf(*rule) : proved ? kRigidlyJoined : "";
+  if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) return;
+  allowed.push_back({body_a.name, body_b.name, reason, proved});
+}
+
+/// @param bodies   without tiles.
+/// @param objects  per body; null if it is none.
+std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(const std::vector<BodyDescription>& bodies,
+                                                                    const std::vector<const Object*>& objects) const {
+  auto settled = std::make_shared<Settled>();
+  RuleIndex rules = ruleIndex();
+  settled->left_out = keepAllowed(rules, settled->allowed);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    checkCancelled();
+    for (std::size_t k = i + 1; k < bodies.size(); ++k)
+      leaveOut(bodies[i], objects[i], bodies[k], objects[k], rules, settled->left_out, settled->allowed);
+  }
+  settled->matches = std::make_shared<const RuleIndex::Known>(std::move(rules).found());
+  return settled;
+}
+
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
@@ -117,43 +155,26 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   scene.visual_only = start_up_->visual_only;
   scene.has_live_map = !start_up_->tiles_begin.empty();
   scene.bodies = start_up_->links;
-  std::vector<const Object*> ordered;
-  for (const auto& [name, object] : objects_) ordered.push_back(&object);
-  std::sort(ordered.begin(), ordered.end(), [](const Object* a, const Object* b) { return a->order < b->order; });
-  for (const Object* object : ordered) scene.bodies.push_back(object->body);
-  const std::size_t first_tile = scene.bodies.size();
+  std::vector<const Object*> objects(scene.bodies.size(), nullptr);  // per body
+  for (const auto& [name, object] : objects_) objects.push_back(&object);
+  std::sort(objects.begin() + static_cast<std::ptrdiff_t>(scene.bodies.size()), objects.end(),
+            [](const Object* a, const Object* b) { return a->order < b->order; });
+  for (std::size_t i = scene.bodies.size(); i < objects.size(); ++i) scene.bodies.push_back(objects[i]->body);
+  const auto moving = static_cast<std::size_t>(std::count_if(
+      scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
+  if (moving * objects.size() > limits.pairs)  // tiles do not count: no request may keep a map out
+    throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
+  if (!settled_) settled_ = settle(scene.bodies, objects);
+  scene.allowed = settled_->allowed;
+
   if (tiles_)
     std::copy_if(tiles_->begin(), tiles_->end(), std::back_inserter(scene.bodies),
                  [&](const BodyDescription& tile) { return !isJudgedAsObject(tile); });
-
-  const auto objectOf = [&](std::size_t body) -> const Object* {
-    return body < start_up_->links.size() || body >= first_tile ? nullptr : ordered[body - start_up_->links.size()];
-  };
   RuleIndex rules = ruleIndex();
-  const std::set<NamePair> left_out = keepAllowed(rules, scene.allowed);
-  const auto moving = static_cast<std::size_t>(std::count_if(
-      scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
-  if (moving * first_tile > limits.pairs)  // tiles do not count: no request may keep a map out
-    throw std::length_error("more than " + std::to_string(limits.pairs) + " pairs");
-
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (std::size_t k = objects.size(); k < scene.bodies.size(); ++k) {
     checkCancelled();
-    const Object* a = objectOf(i);
-    for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
-      const Object* b = objectOf(k);
-      const BodyDescription &body_a = scene.bodies[i], &body_b = scene.bodies[k];
-      if (body_a.is_world && body_b.is_world) continue;
-      const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
-      if (!is_new && rules_.empty() && (k < first_tile || start_up_->rules.allowed.empty())) continue;
-      const RequestRule* rule = rules.last(body_a.name, body_b.name);
-      bool proved = false;
-      std::string reason;
-      if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
-      if (reason.empty() && !proved && k >= first_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
-      if (rule) reason = rule->is_allowed ? textOf(*rule) : proved ? kRigidlyJoined : "";
-      if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) continue;
-      scene.allowed.push_back({body_a.name, body_b.name, reason, proved});
-    }
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      leaveOut(scene.bodies[i], objects[i], scene.bodies[k], nullptr, rules, settled_->left_out, scene.allowed);
   }
   addProofs(*start_up_->robot, scene.bodies, scene.allowed, start_up_->tf_prefix);
   return scene;

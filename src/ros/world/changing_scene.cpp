@@ -81,6 +81,7 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
 
 void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
   checkCancelled();
+  settled_ = nullptr;
   if (change.type <= SceneChange::DETACH) requireName(change.object, "the object's name", sources.limits);
   const RequestPermissions& permissions = start_up_->permissions;
   switch (change.type) {
@@ -141,6 +142,7 @@ void ChangingScene::requireRemovable(const SceneChange& change) const {
 }
 
 void ChangingScene::set(BodyDescription body) {
+  settled_ = nullptr;
   const auto known = objects_.find(body.name);
   const std::size_t order = known == objects_.end() ? ++added_ : known->second.order;
   const std::string name = body.name;

@@ -28,7 +28,8 @@ struct ChangeSources {
 };
 
 /// The objects of the world and the rules about pairs, as update_scene changes them (SceneChange.msg). A copy costs
-/// little compared with a change: a call changes a copy, so that either all of its changes take effect or none.
+/// little compared with a change: a call changes a copy, so that either all of its changes take effect or none. Several
+/// threads may copy one that none of them uses otherwise.
 class ChangingScene {
  public:
   /// @param first  description of the scene that was built at start-up.
@@ -97,6 +98,11 @@ class ChangingScene {
     std::uint64_t declared = 0;
   };
   struct StartUp;  // data that does not change: the links, and the pairs that were left out at start-up
+  struct Settled {  // what the rules say of links and objects: no map has to wait until that is found out again
+    std::vector<AllowedPair> allowed;
+    std::set<NamePair> left_out;  // at start-up; empty if there are no rules
+    std::shared_ptr<const RuleIndex::Known> matches;
+  };
 
   void add(const SceneChange& change, ChangeSources& sources);
   void move(const SceneChange& change);
@@ -116,6 +122,10 @@ class ChangingScene {
   void requireUsableName(const std::string& name) const;
   Object& find(const std::string& name);
   RuleIndex ruleIndex() const;
+  std::shared_ptr<const Settled> settle(const std::vector<BodyDescription>& bodies,
+                                        const std::vector<const Object*>& objects) const;
+  void leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b, const Object* b,
+                RuleIndex& rules, const std::set<NamePair>& left_out, std::vector<AllowedPair>& allowed) const;
   std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
   bool hasChanged(const std::string& body) const;
   bool isJudgedAsObject(const BodyDescription& tile) const;
@@ -128,6 +138,7 @@ class ChangingScene {
   std::shared_ptr<const TileObjects> tile_objects_;  // null if there are no tiles
   std::shared_ptr<MapAge> map_age_;
   std::vector<RequestRule> rules_;
+  mutable std::shared_ptr<const Settled> settled_;  // null after a change, until description()
   std::size_t added_ = 0;       // number of objects ever added
   std::uint64_t declared_ = 0;  // number of changes that said what or where an object is
 };

@@ -1,5 +1,7 @@
 #include "ros/world/rule_index.h"
 
+#include "sdf_ccd/common/cancel.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -8,9 +10,12 @@ constexpr std::size_t kRulesPerWord = 64;
 }  // namespace
 
 const RuleIndex::Matches& RuleIndex::of(const std::string& body) {
-  const auto [known, is_new] = known_.try_emplace(body);
-  Matches& found = known->second;
+  if (known_)
+    if (const auto known = known_->find(body); known != known_->end()) return known->second;
+  const auto [place, is_new] = found_.try_emplace(body);
+  Matches& found = place->second;
   if (!is_new) return found;
+  checkCancelled();
   const std::size_t words = (rules_.size() + kRulesPerWord - 1) / kRulesPerWord;
   found.a.assign(words, 0);
   found.b.assign(words, 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -20,9 +21,17 @@ struct RequestRule {
 /// every map needs this for all of its tiles.
 class RuleIndex {
  public:
+  /// Which rules match a body as a, and as b: bit r is rule r.
+  struct Matches {
+    std::vector<std::uint64_t> a, b;
+  };
+  using Known = std::unordered_map<std::string, Matches>;  ///< by body
+
   /// @param rules, permissions  must outlive this. No rule allows a pair with a protected body.
-  RuleIndex(const std::vector<RequestRule>& rules, const RequestPermissions& permissions)
-      : rules_(rules), permissions_(permissions) {}
+  /// @param known  what an index of the same rules has found; may be null.
+  RuleIndex(const std::vector<RequestRule>& rules, const RequestPermissions& permissions,
+            std::shared_ptr<const Known> known = nullptr)
+      : rules_(rules), permissions_(permissions), known_(std::move(known)) {}
 
   /// Null if there is none.
   const RequestRule* last(const std::string& body_a, const std::string& body_b);
@@ -30,16 +39,16 @@ class RuleIndex {
   /// The last rule, if it allows the pair to touch; else null.
   const RequestRule* allowing(const std::string& body_a, const std::string& body_b);
 
+  /// What it has found besides what it was given.
+  Known found() && { return std::move(found_); }
+
  private:
-  /// Which rules match a body as a, and as b: bit r is rule r.
-  struct Matches {
-    std::vector<std::uint64_t> a, b;
-  };
   const Matches& of(const std::string& body);
 
   const std::vector<RequestRule>& rules_;
   const RequestPermissions& permissions_;
-  std::unordered_map<std::string, Matches> known_;  // by body
+  std::shared_ptr<const Known> known_;
+  Known found_;
 };
 
 }  // namespace sdf_ccd
