@@ -149,7 +149,8 @@ class MapMemoryTest(MasterCase):
         answer = self.update(changes=[SceneChange(type=SceneChange.REMOVE, object='cup'),
                                       SceneChange(type=SceneChange.FORGET_RULES)])
         self.assertTrue(answer.success)
-        first = self.contacts.find(lambda m: m.scene_version == answer.scene_version and m.pairs)
+        # The next version may follow before a cycle has used that one.
+        first = self.contacts.find(lambda m: m.scene_version >= answer.scene_version and m.pairs)
         self.assertIsNotNone(first)
         self.assertTrue(touches_map(first))
 
