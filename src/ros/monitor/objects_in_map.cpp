@@ -1,6 +1,7 @@
 #include "ros/monitor/objects_in_map.h"
 
 #include <algorithm>
+#include <map>
 
 namespace sdf_ccd {
 
@@ -69,6 +70,7 @@ std::optional<ObjectMask> ObjectsInMap::graspedMask(std::size_t object, const ro
 std::vector<ObjectMask> ObjectsInMap::masks(
     const ros::Time& stamp, const std::function<bool(const std::string&, std::uint64_t)>& is_new) const {
   std::vector<ObjectMask> masks;
+  std::map<std::string, bool> moves;  // with the robot, by frame
   for (const std::size_t b : objects()) {
     const Body& body = world_.scene().bodies[b];
     const auto attached = world_.attached_since.find(body.name);
@@ -82,7 +84,9 @@ std::vector<ObjectMask> ObjectsInMap::masks(
       is_at_stamp = mask.has_value();
       if (!mask) mask = maskAt(b, ros::Time());
     }
-    const bool moves_with_robot = is_attached || movesWithRobot(withoutLeadingSlash(body.frame));
+    const auto [of_frame, is_first] = moves.try_emplace(withoutLeadingSlash(body.frame));
+    if (is_first) of_frame->second = movesWithRobot(of_frame->first);
+    const bool moves_with_robot = is_attached || of_frame->second;
     if (!mask && !moves_with_robot) continue;
     if (!mask) mask.emplace();
     mask->name = body.name;
