@@ -49,6 +49,7 @@ class Inspection {
       decide(result);
     }
     if (closed_.size() > 1) doubtNested(result);
+    if (closed_.size() > 1) findSolidWithin(result);
     for (const std::int32_t i : closed_) {
       checkCancelled();
       // Of two parts that meet in edges, only one may be inside out.
@@ -122,6 +123,20 @@ class Inspection {
         if (result[i].doubtful) break;
         doubt(result[i], (uncertain[i] != 0 || uncertain[holder] != 0) && isAtSolid(holder, i));
       }
+    }
+  }
+
+  /// Finds a patch that is solid where others are already: if it was meant to be the wall of a cavity, it was drawn
+  /// inside out.
+  void findSolidWithin(std::vector<ClosedComponent>& result) {
+    uniteClosed();
+    for (const std::int32_t i : closed_) {
+      const std::set<std::int32_t> holders = candidates(i);
+      if (holders.empty() || result[i].cavity || components_[i].flat) continue;
+      long around = 0;  // as in decide()
+      for (const std::int32_t holder : holders) around += (result[holder].flip ? -1 : 1) * numberIn(holder, i);
+      result[i].solid_within = around != 0 && touchedBy(patches_[i].triangles).empty();
+      if (result[i].solid_within) return;
     }
   }
 

@@ -11,6 +11,7 @@ struct ClosedComponent {
   bool flip = false;
   bool cavity = false;
   bool flat = false;           ///< a sheet drawn from both sides
+  bool solid_within = false;   ///< lies in another one and faces outward, too; set of one such patch only
   int negative_triangles = 0;  ///< with a winding number of the patch behind them that is not above zero, although the
                                ///< patch as a whole is oriented correctly: they bound a lobe of a self-intersecting one
   /// Winding numbers may cancel inside a solid: the patch of such a lobe meets another one or itself in edges, two

@@ -142,6 +142,7 @@ ClosedPatches flipClosed(const std::vector<Patch>& patches, TriangleMesh& mesh, 
     all.mixed += patches[i].closed && patches[i].mixed;
     all.doubtful = all.doubtful || closed[i].doubtful;
     quality.negative_triangles += closed[i].negative_triangles;
+    quality.solid_within = quality.solid_within || closed[i].solid_within;
     if (closed[i].flip) flip(mesh, patches[i]);
   }
   quality.inverted_components = all.flipped;

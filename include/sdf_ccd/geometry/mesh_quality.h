@@ -23,6 +23,8 @@ struct MeshQuality {
   int hidden_triangles = 0;      ///< left out: both sides of walls inside a solid
   double hidden_area = 0.0;      ///< of those, both sides [m²]
   int wall_triangles = 0;        ///< kept: both sides of walls without thickness that have the outside on both sides
+  bool solid_within = false;     ///< a closed component lies in another one and faces outward, too: the inside of both is
+                                 ///< solid, though its own may have been meant to be a cavity
   double volume = 0.0;           ///< signed, of the oriented mesh [m³]
   double area = 0.0;             ///< [m²]
   AlignedBox3d box;              ///< [m]
@@ -59,7 +61,8 @@ OrientedMesh orientOutward(const TriangleMesh& mesh);
 /// One line of text: "300 triangles, closed, volume 1.2e-3 m^3, sign trusted".
 std::string summary(const MeshQuality& quality);
 
-/// A one-line warning for users who rely on inside and outside: that the sign is not trusted, that parts were flipped.
+/// A one-line warning for users who rely on inside and outside: that the sign is not trusted, that parts were flipped,
+/// or that a part in another one is solid.
 /// Empty if there is nothing to warn about.
 std::string warningOf(const MeshQuality& quality);
 
