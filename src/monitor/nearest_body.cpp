@@ -198,7 +198,11 @@ NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, cons
     }
     low = std::min(low, -greatestDepth(elements_[b], p_B));
   }
-  if (nearest.body < 0) return {};
+  if (nearest.body < 0) {  // there is no body, unless it is one of which only the box is known
+    nearest = {};
+    nearest.error = low < kInfinity ? kInfinity : 0.0;
+    return nearest;
+  }
   // Another body with a larger error may in truth be nearer.
   nearest.error = std::max(nearest.error, nearest.distance - low);
   return nearest;

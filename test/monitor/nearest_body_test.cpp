@@ -55,6 +55,18 @@ TEST(NearestBody, FindsTheNearestAndItsGradient) {
   EXPECT_EQ(Search(std::vector<BodyDescription>{})({}, {0, 0, 0}).body, -1);
 }
 
+/// Its mesh is too large to be prepared: what is known is that the body is in its box.
+TEST(NearestBody, ABodyOfWhichOnlyTheBoxIsKnownIsNotInfinitelyFar) {
+  TriangleMesh mesh = boxMesh({0.1, 0.1, 0.1});
+  while (mesh.triangles.size() <= 500'000) mesh = merged(mesh, mesh);
+  const Search search({body("block", meshShape(std::move(mesh)))});
+  EXPECT_NE(search.notes[0].find("ignored but for its box"), std::string::npos) << search.notes[0];
+  const NearestBody nearest = search({Isometry3d::Identity()}, {0, 0, 0.05});
+  EXPECT_EQ(nearest.body, -1);
+  EXPECT_TRUE(std::isinf(nearest.error)) << nearest.error;
+  EXPECT_EQ(Search(std::vector<BodyDescription>{})({}, {0, 0, 0}).error, 0.0);
+}
+
 /// A bin half a metre wide without a lid: its centre may be on either side. It has a field beside the ball, and none
 /// alone.
 TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {

@@ -17,7 +17,7 @@ namespace sdf_ccd {
 struct NearestBody {
   int body = -1;          ///< -1 if no body is known
   double distance = 0.0;  ///< [m], negative inside
-  double error = 0.0;     ///< [m]
+  double error = 0.0;     ///< [m]; infinite if bodies are known by their boxes only
   Vector3d gradient_W = Vector3d::Zero();
 };
 
