@@ -66,6 +66,24 @@ TEST_F(RequestPermissionsTest, ToAttachOrDetachNeitherAddsNorMoves) {
   EXPECT_EQ(refusal(change(SceneChange::DETACH, "table")), "");
 }
 
+/// Else a request that may only attach could add objects, or replace a wall by a speck, and detach it again.
+TEST_F(RequestPermissionsTest, WhatAttachAddsOrReplacesNeedsThatPermissionToo) {
+  const auto attached = [](const std::string& name) {
+    SceneChange made = box(name);
+    made.type = SceneChange::ATTACH;
+    made.link = "arm";
+    return made;
+  };
+  permit({"attach"});
+  expectRefused(attached("box"), "requests/allow does not hold add");
+  expectRefused(attached("table"), "requests/allow does not hold move");
+  permit({"attach", "add"});
+  EXPECT_EQ(refusal(attached("box")), "");
+  expectRefused(attached("table"), "requests/allow does not hold move");
+  permit({"attach", "move"});
+  EXPECT_EQ(refusal(attached("table")), "");
+}
+
 TEST_F(RequestPermissionsTest, ByDefaultAllButLimitsIsAllowed) {
   EXPECT_EQ(refusal(box("table")), "");
   EXPECT_EQ(refusal(change(SceneChange::CLEAR)), "");
