@@ -1,12 +1,12 @@
 #include "monitor/cycle_safety.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "common/infinity.h"
 #include "common/number_text.h"
-#include "model/name_pair.h"
 
 namespace sdf_ccd {
 namespace {
@@ -50,6 +50,28 @@ Proximity proximityOf(bool may_move, const std::vector<PairDistance>& near, cons
     if (stop > 0.0) to_stop = std::min(to_stop, pair.any.width - stop);
   }
   return watch.update(to_warning, to_stop, thresholds.hysteresis);
+}
+
+/// Why the scale is 0 for another reason than a distance; empty if it is not.
+const char* whyStopped(CycleFinding finding) {
+  switch (finding) {
+    case CycleFinding::kNoPair:
+      return "nothing is checked";
+    case CycleFinding::kContact:
+      return "a pair is in CONTACT";
+    case CycleFinding::kUncertain:
+      return "a pair is UNCERTAIN";
+    case CycleFinding::kNotChecked:
+      return "a pair is NOT_CHECKED";
+    case CycleFinding::kUnmeasured:
+      return "a pair waits for transforms, and its distance is not known";
+    case CycleFinding::kOld:
+      return "data are older than velocity_scale/max_age";
+    case CycleFinding::kDelayed:
+    case CycleFinding::kClear:
+      break;
+  }
+  return "";
 }
 
 }  // namespace
@@ -126,36 +148,29 @@ bool isTooClose(const PairDistance& pair, const SafetyRules& rules) {
   return pair.any.width <= traits.stop_distance.value_or(rules.thresholds.stop) && !cannotChange(pair, traits);
 }
 
-std::string limitText(const CycleSafety& safety, const Scene& scene, const SafetyRules& rules) {
-  switch (safety.finding) {
-    case CycleFinding::kNoPair:
-      return "nothing is checked";
-    case CycleFinding::kContact:
-      return "a pair is in CONTACT";
-    case CycleFinding::kUncertain:
-      return "a pair is UNCERTAIN";
-    case CycleFinding::kNotChecked:
-      return "a pair is NOT_CHECKED";
-    case CycleFinding::kUnmeasured:
-      return "a pair waits for transforms, and its distance is not known";
-    case CycleFinding::kOld:
-      return "data are older than velocity_scale/max_age";
-    case CycleFinding::kDelayed:
-    case CycleFinding::kClear:
-      break;
+void setLimit(const CycleSafety& safety, const Scene& scene, const SafetyRules& rules, std::string& text) {
+  text.clear();
+  if (!safety.velocity_scale || *safety.velocity_scale >= 1.0) return;
+  text = whyStopped(safety.finding);
+  if (!text.empty()) return;
+  if (!safety.limiting) {
+    text = "it rises slowly from what a pair of the last scene allowed";
+    return;
   }
-  if (!safety.limiting) return {};
   const PairDistance& pair = *safety.limiting;
   const PairTraits& traits = traitsOf(pair, rules.traits);
   const double stop = traits.stop_distance.value_or(rules.thresholds.stop);
   const bool is_measured = traits.is_own && rules.promise && rules.promise->own_pairs == OwnPairs::kMeasured;
-  std::string text = pairName(scene, pair) + ": " + lengthText(pair.any.width) + " apart";
-  if (pair.any.width <= stop) return text + ", within its stop distance of " + lengthText(stop);
-  if (is_measured) return text + fmt::format(", closed at {:.3g} m/s", pair.closing_speed);
-  if (pair.closing_speed > 0.0) text += fmt::format(", closes at {:.3g} m/s", pair.closing_speed);
+  const auto add = [&](const char* format, const auto&... values) {
+    fmt::format_to(std::back_inserter(text), format, values...);
+  };
+  add("{} - {}: {} apart", scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name,
+      lengthText(pair.any.width));
+  if (pair.any.width <= stop) return add(", within its stop distance of {}", lengthText(stop));
+  if (is_measured) return add(", closed at {:.3g} m/s", pair.closing_speed);
+  if (pair.closing_speed > 0.0) add(", closes at {:.3g} m/s", pair.closing_speed);
   text += traits.is_own ? ", two links, which velocity_scale/own_pairs: promise limits by what they can do"
                         : ", which is less than a robot may need to stop";
-  return text;
 }
 
 }  // namespace sdf_ccd

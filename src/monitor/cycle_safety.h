@@ -81,8 +81,8 @@ std::string rangeText(const SafetyRules& rules);
 /// Whether a pair has come within its stop distance, and can leave it.
 bool isTooClose(const PairDistance& pair, const SafetyRules& rules);
 
-/// Why the scale is less than 1, or would be if there were one; empty if it is not. "link5 - link7: 22 mm apart, closes
-/// at 0.1 m/s; …".
-std::string limitText(const CycleSafety& safety, const Scene& scene, const SafetyRules& rules);
+/// Sets why the scale is less than 1; empty if it is not, or there is none: "link5 - link7: 22 mm apart, closes at 0.1
+/// m/s; …". Reuses the text's memory.
+void setLimit(const CycleSafety& safety, const Scene& scene, const SafetyRules& rules, std::string& text);
 
 }  // namespace sdf_ccd

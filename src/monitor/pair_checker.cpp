@@ -44,7 +44,8 @@ bool PairChecker::canBeChecked(const CycleMotion& motion, const SweptBodies& bod
     setNotChecked(reason, result);
     return false;
   };
-  if (result.span.empty()) return because("its transforms have not arrived yet");
+  static const std::string late = "its transforms have not arrived yet";  // made once: it is copied in each cycle
+  if (result.span.empty()) return because(late);
   for (const int body : {pair_.body_a, pair_.body_b}) {
     const std::string& why = bodies.whyUnknown(motion, body);
     if (why.empty()) continue;

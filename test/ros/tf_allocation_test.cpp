@@ -13,6 +13,7 @@
 #include "ros/monitor/cycle_snapshot.h"
 #include "ros/monitor/health_watch.h"
 #include "ros/monitor/monitor_loop.h"
+#include "ros/monitor/proximity_measure.h"
 #include "ros/monitor/torque_output.h"
 #include "ros/tf_messages.h"
 
@@ -24,15 +25,27 @@ using test::stampedTransform;
 constexpr int kLinks = 10;
 constexpr double kPeriod = 0.01;  // [s]
 
+/// What may keep an arm from moving at full scale.
+struct Troubles {
+  bool is_body_bad = false;    ///< a body without a mesh
+  int slow_frame_period = 1;   ///< number of messages of which one has the last link's transform
+};
+
 /// An arm of balls that bends back and forth above a ground, between a static base and a static tool.
 class Arm {
  public:
-  explicit Arm(double height) {
+  explicit Arm(double height, const Troubles& troubles = {}) : slow_frame_period_(troubles.slow_frame_period) {
+    ros::Time::init();
     std::vector<BodyDescription> bodies = {test::body("ground", test::ground(), true)};
     for (int link = 0; link < kLinks; ++link) bodies.push_back(test::body(name(link), Sphere{0.02}));
     bodies.push_back(test::body("tool", Sphere{0.02}));
+    if (troubles.is_body_bad) {
+      bodies.push_back(test::body("a_body_of_which_the_mesh_is_bad", Sphere{0.02}, true));
+      bodies.back().failure = "a mesh that cannot be read, for a reason that takes some words";
+    }
     MonitorParameters parameters;
     parameters.monitor = test::soft();
+    parameters.proximity.promise = StoppingPromise();
     loop_ = std::make_unique<MonitorLoop>(test::build(bodies), test::describedWorld(), parameters);
     Quaterniond upright = Quaterniond::Identity();
     loop_->history().add(test::message({stampedTransform("/world", "base", ros::Time(), upright, {0.0, 0.0, height}),
@@ -41,6 +54,9 @@ class Arm {
     for (int link = 0; link < kLinks; ++link) {
       message_.transforms.push_back(stampedTransform(link == 0 ? "base" : name(link - 1), "/" + name(link), 0.0, 0.1));
     }
+    slow_ = message_;
+    slow_.transforms.pop_back();
+    measure_ = std::make_unique<ProximityMeasure>(parameters.proximity, *loop_);
   }
 
   /// One second of motion that ends where it begins.
@@ -48,18 +64,24 @@ class Arm {
     for (int i = 0; i < 100; ++i, ++now_) {
       const ros::Time now = ros::Time(100.0) + ros::Duration(kPeriod * now_);
       const double yaw = 0.02 * std::sin(2.0 * M_PI * i / 100.0);
-      for (geometry_msgs::TransformStamped& transform : message_.transforms) {
+      tf2_msgs::TFMessage& message = now_ % slow_frame_period_ == 0 ? message_ : slow_;
+      for (geometry_msgs::TransformStamped& transform : message.transforms) {
         transform.header.stamp = now;
         transform.transform.rotation.w = std::cos(0.5 * yaw);
         transform.transform.rotation.z = std::sin(0.5 * yaw);
       }
+      ros::Time::setNow(now);
       loop_->history().watchClock(now);
-      loop_->history().add(message_, false);
+      loop_->history().add(message, false);
       if (loop_->step(now, {true, 5}) != TfTracker::Step::kCycle) continue;
       const boost::shared_ptr<ContactArray> contacts = contacts_.take();
       setContactArray(*loop_, *contacts);
       const boost::shared_ptr<MonitorState> state = states_.take();
       setMonitorState(*loop_, now, *state);
+      measure_->setState(measure_->measure(false), *state);
+      health_.recordCycle(*loop_, *state, measure_->safety(), now);
+      limited_ += state->velocity_scale < 1.0 && !state->velocity_limit.empty();
+      warned_ += !health_.health().finding.empty();
       loop_->measureDistances(0.5);
       const boost::shared_ptr<DistanceArray> distances = distances_.take();
       setDistanceArray(*loop_, 0.5, *distances);
@@ -69,17 +91,22 @@ class Arm {
   }
 
   int cycles(std::uint8_t verdict) const { return cycles_[verdict]; }
+  int limited() const { return limited_; }  ///< cycles with a scale below 1, and the reason for it
+  int warned() const { return warned_; }    ///< cycles of which the diagnostics have something to say
 
  private:
   static std::string name(int link) { return "a_link_with_a_long_name_" + std::to_string(link); }
 
+  int slow_frame_period_;
   std::unique_ptr<MonitorLoop> loop_;
-  tf2_msgs::TFMessage message_;
+  std::unique_ptr<ProximityMeasure> measure_;
+  HealthWatch health_;
+  tf2_msgs::TFMessage message_, slow_;
   MessagePool<ContactArray> contacts_;
   MessagePool<MonitorState> states_;
   MessagePool<DistanceArray> distances_;
   long now_ = 0;
-  int cycles_[4] = {0, 0, 0, 0};
+  int cycles_[4] = {0, 0, 0, 0}, limited_ = 0, warned_ = 0;
 };
 
 /// A gripper of meshes whose sliding finger is pressed on a wall. Out of its reach, as long as the finger keeps to
@@ -191,6 +218,28 @@ TEST(TfAllocation, NoneFromTransformsToTheMessageOfContactsLikeTheLast) {
   Arm arm(0.015);
   EXPECT_EQ(steadyAllocations(arm), 0);
   EXPECT_GT(arm.cycles(ContactArray::CONTACT), 1400);
+}
+
+TEST(TfAllocation, NoneWhileANearPairLimitsTheVelocityScale) {
+  Arm arm(0.3);
+  EXPECT_EQ(steadyAllocations(arm), 0);
+  EXPECT_GT(arm.cycles(ContactArray::CLEAR), 1400);
+  EXPECT_GT(arm.limited(), 1400);
+}
+
+TEST(TfAllocation, NoneWhileABodyIsNotChecked) {
+  Arm arm(1.0, {true, 1});
+  EXPECT_EQ(steadyAllocations(arm), 0);
+  EXPECT_GT(arm.cycles(ContactArray::NOT_CHECKED), 1400);
+  EXPECT_GT(arm.limited(), 1400);
+  EXPECT_GT(arm.warned(), 1400);
+}
+
+TEST(TfAllocation, NoneWhilePairsWaitForAFrameThatIsSlow) {
+  Arm arm(1.0, {false, 3});
+  EXPECT_EQ(steadyAllocations(arm), 0);
+  EXPECT_GT(arm.cycles(ContactArray::NOT_CHECKED), 700);
+  EXPECT_GT(arm.warned(), 700);
 }
 
 /// With wrenches, torques, deepest points and what is drawn, while the limits of the finger's joint are watched.

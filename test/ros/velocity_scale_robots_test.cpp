@@ -80,7 +80,8 @@ TEST_P(StockRobots, MoveAtFullScaleInAnEmptyWorld) {
   MonitorLoop loop(scene, described, parameters);
   ProximityMeasure measure(parameters.proximity, loop);
   const auto tell = [&](const CycleSafety& safety) {
-    std::string text = limitText(safety, *scene, measure.rules());
+    std::string text;
+    setLimit(safety, *scene, measure.rules(), text);
     for (const int index : loop.result().not_clear) {
       const PairResult& pair = loop.result().pairs[index];
       text += "; " + pairName(*scene, pair) + " " + toString(pair.verdict) + " " + pair.reason;

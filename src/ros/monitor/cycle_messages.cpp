@@ -25,7 +25,7 @@ void setCycle(const MonitorLoop& loop, Message& message) {
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
   message.verdict = static_cast<std::uint8_t>(result.verdict);
-  message.reason = uncheckedCycle(loop);
+  setUncheckedCycle(loop, message.reason);
   setErrorBound(result.error, message);
   message.delayed_since = cycle.delayed_since;
   message.contradicted_since = ros::Time();
@@ -165,9 +165,7 @@ bool hasScalars(const MonitorLoop& loop) {
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
   const CycleResult& result = loop.result();
   setCycle(loop, message);
-  message.missing = missingBodies(loop);
-  const std::vector<std::string>& failed = loop.unbuilt().lines;
-  message.missing.insert(message.missing.end(), failed.begin(), failed.end());
+  setMissingBodies(loop, loop.unbuilt().lines, message.missing);
   loop.warnings().copyTo(message.warnings);
   message.latency = secondsBetween(loop.cycle().end, now);
   message.contact_error_bound = result.contact_error;

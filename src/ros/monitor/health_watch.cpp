@@ -1,10 +1,11 @@
 #include "ros/monitor/health_watch.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include <fmt/format.h>
 #include <ros/console.h>
 
-#include "common/counted.h"
 #include "common/number_text.h"
 #include "monitor/no_pairs.h"
 #include "monitor/over_budget.h"
@@ -19,13 +20,20 @@ constexpr double kLateHold = 3.0;     // time for which late transforms are repo
 constexpr double kWarnDelay = 2.0;    // time before bodies that are not checked are logged [s]
 constexpr double kWarnPeriod = 10.0;  // between such log messages [s]
 
-/// Why the cycle's health is not kOk.
-std::string findingText(const CycleSafety& safety, const MonitorState& state) {
-  if (safety.health == Health::kOk) return {};
-  if (safety.finding == CycleFinding::kOld) return "the newest data of a pair are older than velocity_scale/max_age";
-  if (!state.reason.empty()) return state.reason;
-  return safety.health == Health::kError ? counted(state.pairs_not_checked, "pair") + " could not be checked"
-                                         : counted(state.pairs_delayed, "pair") + " wait for late transforms";
+/// Sets why the cycle's health is not kOk; empty if it is. Reuses the text's memory.
+void setFinding(const CycleSafety& safety, const MonitorState& state, std::string& text) {
+  text.clear();
+  if (safety.health == Health::kOk) return;
+  if (safety.finding == CycleFinding::kOld) {
+    text = "the newest data of a pair are older than velocity_scale/max_age";
+  } else if (!state.reason.empty()) {
+    text = state.reason;
+  } else {
+    const bool is_error = safety.health == Health::kError;
+    const std::uint32_t pairs = is_error ? state.pairs_not_checked : state.pairs_delayed;
+    fmt::format_to(std::back_inserter(text), "{} pair{} {}", pairs, pairs == 1 ? "" : "s",
+                   is_error ? "could not be checked" : "wait for late transforms");
+  }
 }
 
 }  // namespace
@@ -79,13 +87,13 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
     countPairs(loop.scene());
   }
   health_.safety = safety.health;
-  health_.finding = findingText(safety, state);
+  setFinding(safety, state, health_.finding);
   health_.latency = state.latency;
   health_.age = secondsBetween(state.complete_until, sent);
   health_.run_time = state.run_time;
   health_.error = result.error;
   health_.contact_error = result.contact_error;
-  health_.missing = missingBodies(loop);
+  setMissingBodies(loop, {}, health_.missing);
   health_.pairs_delayed = result.delayed;
   health_.pairs_postponed = result.postponed;
   health_.pairs_incomplete = result.incomplete;

@@ -48,9 +48,7 @@ const CycleSafety& ProximityMeasure::measure(bool lists_distances) {
 void ProximityMeasure::setState(const CycleSafety& safety, MonitorState& state) const {
   state.proximity = static_cast<std::uint8_t>(safety.proximity);
   state.velocity_scale = safety.velocity_scale.value_or(std::numeric_limits<double>::quiet_NaN());
-  state.velocity_limit.clear();
-  if (safety.velocity_scale && *safety.velocity_scale < 1.0)
-    state.velocity_limit = limitText(safety, loop_.scene(), rules());
+  setLimit(safety, loop_.scene(), rules(), state.velocity_limit);
   state.velocity_promise = promise_text_;
 }
 

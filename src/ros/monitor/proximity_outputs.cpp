@@ -56,13 +56,13 @@ void ProximityOutputs::warnOfStandstill() {
   const CycleSafety& safety = measure_.safety();
   const bool stands = safety.limiting && safety.velocity_scale == 0.0 && loop_.traits()[safety.limiting->pair].is_own &&
                       measure_.parameters().promise->own_pairs == OwnPairs::kPromise;
-  std::string text;
-  if (stands)
-    text = "velocity_scale is 0: " + pairName(loop_.scene(), *safety.limiting) +
-           " are closer than velocity_scale/own_pairs: promise lets two links come";
-  if (text == standstill_) return;
-  standstill_ = text;
-  loop_.warnings().set("own_pairs", text);
+  const std::pair<std::uint64_t, int> standing =
+      stands ? std::pair(loop_.world()->version(), safety.limiting->pair) : std::pair(std::uint64_t{0}, -1);
+  if (standing == standing_) return;
+  standing_ = standing;
+  loop_.warnings().set("own_pairs", stands ? "velocity_scale is 0: " + pairName(loop_.scene(), *safety.limiting) +
+                                                 " are closer than velocity_scale/own_pairs: promise lets two links come"
+                                           : "");
 }
 
 }  // namespace sdf_ccd

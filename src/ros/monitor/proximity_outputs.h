@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <utility>
+
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <boost/shared_ptr.hpp>
@@ -54,7 +57,7 @@ class ProximityOutputs {
   ProximityMeasure measure_;
   ros::Publisher distances_, velocity_scale_, ways_out_;
   MessagePool<DistanceArray> messages_;
-  std::string standstill_;  // what warnOfStandstill() has warned about
+  std::pair<std::uint64_t, int> standing_{0, -1};  // scene version and pair of warnOfStandstill()'s warning
 };
 
 }  // namespace sdf_ccd

@@ -1,11 +1,11 @@
 #include "ros/monitor/unchecked.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "common/counted.h"
 #include "model/name_pair.h"
 #include "ros/tf/seconds_between.h"
 
@@ -21,6 +21,12 @@ std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
   return pairName(loop.scene(), pair) + ": " + pair.reason;
 }
 
+std::vector<std::string> missingBodies(const MonitorLoop& loop) {
+  std::vector<std::string> lines;
+  setMissingBodies(loop, {}, lines);
+  return lines;
+}
+
 }  // namespace
 
 const std::string& uncheckedReason(const MonitorLoop& loop, int body) {
@@ -32,31 +38,43 @@ bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair) {
   return !uncheckedReason(loop, pair.body_a).empty() || !uncheckedReason(loop, pair.body_b).empty();
 }
 
-std::string uncheckedCycle(const MonitorLoop& loop) {
+void setUncheckedCycle(const MonitorLoop& loop, std::string& reason) {
   const CycleResult& result = loop.result();
   const TrackedCycle& cycle = loop.cycle();
-  if (result.verdict != Verdict::kNotChecked) return "";
-  if (result.pairs.empty()) return "no pairs: there is nothing to check";
-  std::string reason;
+  reason.clear();
+  if (result.verdict != Verdict::kNotChecked) return;
+  const auto text = std::back_inserter(reason);
+  if (result.pairs.empty()) reason = "no pairs: there is nothing to check";
   const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
-    reason = counted(static_cast<std::size_t>(result.not_checked), "pair") + " could not be checked, for example " +
-             pairReason(loop, *first);
+    const BodyList& bodies = loop.scene().bodies;
+    fmt::format_to(text, "{} pair{} could not be checked, for example {} - {}: {}", result.not_checked,
+                   result.not_checked == 1 ? "" : "s", bodies[first->body_a].name, bodies[first->body_b].name,
+                   first->reason);
   }
   if (result.delayed > 0) {
-    reason += fmt::format("{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
-                          result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
+    fmt::format_to(text, "{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
+                   result.delayed, secondsBetween(cycle.delayed_since, cycle.end));
   }
-  return reason;
 }
 
-std::vector<std::string> missingBodies(const MonitorLoop& loop) {
+void setMissingBodies(const MonitorLoop& loop, const std::vector<std::string>& others,
+                      std::vector<std::string>& lines) {
   const std::vector<std::string>& missing = loop.cycle().motion.missing;
-  std::vector<std::string> lines;
+  std::size_t count = 0;
+  const auto next = [&]() -> std::string& {
+    if (count == lines.size()) lines.emplace_back();
+    return lines[count++];
+  };
   for (std::size_t body = 0; body < missing.size(); ++body) {
-    if (!missing[body].empty()) lines.push_back(loop.scene().bodies[body].name + ": " + missing[body]);
+    if (missing[body].empty()) continue;
+    std::string& line = next();
+    line = loop.scene().bodies[body].name;
+    line += ": ";
+    line += missing[body];
   }
-  return lines;
+  for (const std::string& other : others) next() = other;
+  lines.resize(count);
 }
 
 std::string uncheckedCause(const MonitorLoop& loop) {

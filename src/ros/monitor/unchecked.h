@@ -14,11 +14,12 @@ const std::string& uncheckedReason(const MonitorLoop& loop, int body);
 /// Whether one of the pair's bodies cannot be checked at all.
 bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair);
 
-/// Why the cycle as a whole is not checked; empty if it is.
-std::string uncheckedCycle(const MonitorLoop& loop);
+/// Sets the reason why the cycle as a whole is not checked; empty if it is. Reuses the text's memory.
+void setUncheckedCycle(const MonitorLoop& loop, std::string& reason);
 
-/// "body: reason" of the bodies that the cycle could not check because transforms are missing.
-std::vector<std::string> missingBodies(const MonitorLoop& loop);
+/// Sets "body: reason" of the bodies that the cycle could not check because transforms are missing, then `others`.
+/// Reuses the lines' memory.
+void setMissingBodies(const MonitorLoop& loop, const std::vector<std::string>& others, std::vector<std::string>& lines);
 
 /// Why bodies are not checked, in one line: an example of the most frequent reason, and the number of other bodies.
 /// Empty if the cycle could check all bodies.
