@@ -122,6 +122,9 @@ class PublishedScales {
   /// @return what a measured scale of the present cycle may be. @param time  on any clock [s].
   ScaleLimit limitRise(const ScaleLimit& measured, double time, const StoppingPromise& promise);
 
+  /// To be called when the scene has changed: pairs have other indices. The scales stay.
+  void forgetPair() { measured_.pair.reset(); }
+
   /// To be called with each scale that is published.
   void add(double scale, double time, const StoppingPromise& promise);
 

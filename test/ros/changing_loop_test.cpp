@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/loop_case.h"
+#include "ros/monitor/proximity_measure.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd {
@@ -82,6 +83,30 @@ TEST_F(ChangingLoopTest, WhatAppearsIsTestedInAdvance) {
     EXPECT_EQ(said.verdict, ContactArray::CLEAR) << said.reason;
     EXPECT_LT(said.checked, 3u) << said.skipped << " skipped";
   }
+}
+
+/// The indices of its pair and bodies are those of another scene.
+TEST_F(ChangingLoopTest, AScaleThatStillRisesNamesNoPairOfTheLastScene) {
+  ros::Time::init();
+  ProximityParameters parameters;
+  parameters.promise = StoppingPromise();
+  ProximityMeasure measure(parameters, *loop_);
+  MonitorState state;
+  const auto cycle = [&](int i, double x) {
+    const double now = 10.0 + i * kPeriod;
+    ros::Time::setNow(ros::Time(now));
+    sendFoot(now, -1.0);
+    sendHand(now, x);
+    if (step(now) == Step::kCycle) measure.setState(measure.measure(false), state);
+  };
+  for (int i = 0; i < 10; ++i) cycle(i, -1.8 + i * kPeriod);
+  ASSERT_LT(state.velocity_scale, 1.0);
+  EXPECT_EQ(state.velocity_limit.find("hand - foot: "), 0u) << state.velocity_limit;
+  description_.bodies.erase(description_.bodies.begin() + 1);
+  change();
+  cycle(10, -1.5);
+  ASSERT_LT(state.velocity_scale, 1.0);
+  EXPECT_EQ(state.velocity_limit, "it rises slowly from what a pair of the last scene allowed");
 }
 
 /// Whatever keeps a new map away, the cycle tests the age of the one that it has.

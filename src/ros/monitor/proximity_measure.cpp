@@ -32,6 +32,10 @@ double ProximityMeasure::range(bool lists_distances) const {
 
 const CycleSafety& ProximityMeasure::measure(bool lists_distances) {
   static const std::vector<PairDistance> none;
+  if (const std::uint64_t version = loop_.world()->version(); version != version_) {
+    version_ = version;
+    memory_.scales.forgetPair();
+  }
   const double wanted = range(lists_distances);
   if (!(wanted > 0.0)) loop_.forgetDistances();
   const std::vector<PairDistance>& near = wanted > 0.0 ? loop_.measureDistances(wanted) : none;

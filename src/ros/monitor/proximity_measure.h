@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "monitor/cycle_safety.h"
@@ -52,6 +53,7 @@ class ProximityMeasure {
   ProximityParameters parameters_;
   std::string promise_text_;
   SafetyMemory memory_;
+  std::uint64_t version_ = 0;  // of the scene that was judged last
   CycleSafety safety_;
 };
 
