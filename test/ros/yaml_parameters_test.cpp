@@ -109,6 +109,112 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.tf.max_cycle, defaults.tf.max_cycle);
   EXPECT_EQ(documented.rate, defaults.rate);
   EXPECT_EQ(documented.max_points, defaults.max_points);
+  EXPECT_EQ(documented.scene.max_preparation_time, defaults.scene.max_preparation_time);
+  EXPECT_EQ(documented.scene.field.band, defaults.scene.field.band);
+  EXPECT_EQ(documented.scene.shell.seed, defaults.scene.shell.seed);
+  EXPECT_EQ(documented.monitor.contact.damping, defaults.monitor.contact.damping);
+  EXPECT_EQ(documented.monitor.contact.stiffness_per, defaults.monitor.contact.stiffness_per);
+  EXPECT_EQ(documented.monitor.contact.normal, defaults.monitor.contact.normal);
+  EXPECT_EQ(documented.monitor.contact.quadrature, defaults.monitor.contact.quadrature);
+  EXPECT_EQ(documented.monitor.contact.midpoint_intervals, defaults.monitor.contact.midpoint_intervals);
+  EXPECT_EQ(documented.contact_join.time, defaults.contact_join.time);
+  EXPECT_EQ(documented.contact_join.distance, defaults.contact_join.distance);
+  EXPECT_EQ(documented.monitor.chords.max_chords, defaults.monitor.chords.max_chords);
+  EXPECT_EQ(documented.max_cycle_time, defaults.max_cycle_time);
+  EXPECT_EQ(documented.request_time, defaults.request_time);
+  EXPECT_EQ(documented.trigger.kind, defaults.trigger.kind);
+  EXPECT_EQ(documented.refine, defaults.refine);
+  EXPECT_EQ(documented.overlapping_pairs, defaults.overlapping_pairs);
+  EXPECT_EQ(documented.robot.check_adjacent, defaults.robot.check_adjacent);
+  EXPECT_EQ(documented.allow_http, defaults.allow_http);
+  EXPECT_EQ(documented.log_contacts, defaults.log_contacts);
+  EXPECT_EQ(documented.live_map.unknown, defaults.live_map.unknown);
+  EXPECT_EQ(documented.live_map.unknown_distance, defaults.live_map.unknown_distance);
+  EXPECT_EQ(documented.live_map.padding, defaults.live_map.padding);
+  EXPECT_EQ(documented.live_map.max_age, defaults.live_map.max_age);
+  EXPECT_EQ(documented.octomap.cell_size, defaults.octomap.cell_size);
+  EXPECT_EQ(documented.proximity.thresholds.hysteresis, defaults.proximity.thresholds.hysteresis);
+  EXPECT_FALSE(documented.proximity.thresholds.any());
+  EXPECT_FALSE(documented.proximity.promise);
+  EXPECT_EQ(documented.markers.scale, defaults.markers.scale);
+  EXPECT_EQ(documented.markers.hold, defaults.markers.hold);
+  const RequestPermissions allowed = documented.requests, preset = defaults.requests;
+  for (const auto kind : {&RequestPermissions::add, &RequestPermissions::move, &RequestPermissions::attach,
+                          &RequestPermissions::rules, &RequestPermissions::clear, &RequestPermissions::reset,
+                          &RequestPermissions::limits})
+    EXPECT_EQ(allowed.*kind, preset.*kind);
+}
+
+/// As config/monitor.yaml states them, each on both sides.
+TEST(YamlParameters, NumbersAreRejectedBeyondTheirLimitsAndAcceptedAtThem) {
+  struct Limits {
+    const char* key;
+    std::vector<const char*> accepted, rejected;
+  };
+  const std::vector<Limits> all{
+      {"max_error", {"0.00001", "0.01"}, {"0.0000099", "0.0101", "0", "-0.001"}},
+      {"request_time", {"0.001", "3600"}, {"0", "3601", "-1"}},
+      {"max_preparation_time", {"0.001", "1.0e+6"}, {"0", "-1"}},
+      {"octomap/unknown_distance", {"0", "5"}, {"-0.001"}},
+      {"octomap/padding", {"0", "1"}, {"-0.001"}},
+      {"octomap/max_age", {"0", "10"}, {"-1"}},
+      {"octomap/cell_size", {"0", "0.01"}, {"-0.01"}},
+      {"field/cells", {"2", "100"}, {"1", "0", "2.5"}},
+      {"field/cell_size", {"0.001"}, {"0", "-0.001"}},
+      {"field/max_error", {"0.001"}, {"0", "-0.001"}},
+      {"field/band", {"0", "0.1"}, {"-0.001"}},
+      {"field/max_megabytes", {"0.5", "1.0e+6"}, {"0", "-1"}},
+      {"shell/spacing", {"0.001"}, {"0", "-0.001"}},
+      {"shell/edge_gap", {"0", "0.001"}, {"-0.001"}},
+      {"shell/vertex_spacing", {"0", "0.001"}, {"-0.001"}},
+      {"shell/seed", {"0", "7"}, {"-1", "1.5"}},
+      {"contact/accuracy", {"0.001"}, {"0", "-0.001"}},
+      {"contact/stiffness", {"0", "1.0e+9"}, {"-1"}},
+      {"contact/damping", {"0", "10"}, {"-1"}},
+      {"contact/join_time", {"0", "3600"}, {"-0.1", "3601"}},
+      {"contact/join_distance", {"0", "1"}, {"-0.1"}},
+      {"contact/midpoint_intervals", {"1", "20"}, {"0", "-1"}},
+      {"rate", {"0.001", "10000"}, {"0", "-30"}},
+      {"chord_tolerance", {"0.00001"}, {"0", "-1"}},
+      {"max_chords", {"1"}, {"0", "-1"}},
+      {"max_latency", {"0.001", "3600"}, {"0", "-1", "3601"}},
+      {"max_cycle", {"0.001", "3600"}, {"0", "-1", "3601"}},
+      {"max_cycle_time", {"-1", "0", "10"}, {"-0.5", "-2"}},
+      {"report_distance", {"0", "1"}, {"-0.1"}},
+      {"warning_distance", {"0", "1"}, {"-0.1"}},
+      {"stop_distance", {"0", "1"}, {"-0.1"}},
+      {"hysteresis", {"0", "1"}, {"-0.1"}},
+      {"velocity_scale/max_speed", {"0.01"}, {"0", "-1"}},
+      {"velocity_scale/max_acceleration", {"5.0"}, {"-1"}},
+      {"velocity_scale/deceleration", {"2.0"}, {"0", "-1"}},
+      {"velocity_scale/reaction_time", {"0.1"}, {"-1"}},
+      {"velocity_scale/period", {"0.1"}, {"0", "-1"}},
+      {"velocity_scale/max_age", {"0.2"}, {"0", "-1"}},
+      {"max_points", {"0", "100"}, {"-1", "2.5"}},
+      {"marker_scale", {"0.01"}, {"0", "-1"}},
+      {"marker_hold", {"0", "5"}, {"-0.1"}},
+  };
+  for (const auto& [key, accepted, rejected] : all) {
+    const std::string name = std::string(key) + ": ";
+    for (const char* value : accepted) EXPECT_EQ(errorOf(name + value), "") << key << " " << value;
+    for (const char* value : rejected)
+      EXPECT_EQ(errorOf(name + value).find("parameter ~/" + std::string(key)), 0u) << key << " " << value;
+    for (const char* value : {".nan", ".inf", "many", "[1]", "true"})
+      EXPECT_EQ(errorOf(name + value).find("parameter ~/" + std::string(key)), 0u) << key << " " << value;
+  }
+  EXPECT_EQ(errorOf("warning_distance: 0.01\nstop_distance: 0.02").find("parameter ~/warning_distance"), 0u);
+  EXPECT_EQ(errorOf("warning_distance: 0.02\nstop_distance: 0.02"), "");
+  EXPECT_EQ(errorOf("urdf_file: robot.urdf").find("parameter ~/urdf_file"), 0u);
+  EXPECT_EQ(errorOf("resource_roots: [worlds]").find("parameter ~/resource_roots"), 0u);
+  EXPECT_EQ(errorOf("trigger: frames").find("parameter ~/trigger_frames"), 0u);
+}
+
+TEST(YamlParameters, WhatIsShorterThanStatedIsTheStatedMinimum) {
+  const auto parse = [](const std::string& text) { return parseParameters(load(text), "~"); };
+  EXPECT_EQ(parse("contact: {join_time: 0}").contact_join.time, std::chrono::milliseconds(1));
+  EXPECT_EQ(parse("").trigger.patience, 0.1);
+  EXPECT_EQ(parse("max_latency: 0.05").trigger.patience, 0.05);
+  EXPECT_EQ(parse("urdf_parameter: arm").srdf_parameter, "arm_semantic");
 }
 
 TEST(YamlParameters, ACyclesTimeFollowsTheRateUnlessItIsSet) {
