@@ -23,8 +23,8 @@ struct MeshQuality {
   int hidden_triangles = 0;      ///< left out: both sides of walls inside a solid
   double hidden_area = 0.0;      ///< of those, both sides [m²]
   int wall_triangles = 0;        ///< kept: both sides of walls without thickness that have the outside on both sides
-  bool solid_within = false;     ///< a closed component lies in another one and faces outward, too: the inside of both is
-                                 ///< solid, though its own may have been meant to be a cavity
+  bool solid_within = false;     ///< a closed component lies in another one and faces outward, too: both are solid,
+                                 ///< though it may have been meant to be the wall of a cavity
   double volume = 0.0;           ///< signed, of the oriented mesh [m³]
   double area = 0.0;             ///< [m²]
   AlignedBox3d box;              ///< [m]

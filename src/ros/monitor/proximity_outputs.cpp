@@ -60,9 +60,11 @@ void ProximityOutputs::warnOfStandstill() {
       stands ? std::pair(loop_.world()->version(), safety.limiting->pair) : std::pair(std::uint64_t{0}, -1);
   if (standing == standing_) return;
   standing_ = standing;
-  loop_.warnings().set("own_pairs", stands ? "velocity_scale is 0: " + pairName(loop_.scene(), *safety.limiting) +
-                                                 " are closer than velocity_scale/own_pairs: promise lets two links come"
-                                           : "");
+  std::string text;
+  if (stands)
+    text = "velocity_scale is 0: " + pairName(loop_.scene(), *safety.limiting) +
+           " are closer than velocity_scale/own_pairs: promise lets two links come";
+  loop_.warnings().set("own_pairs", text);
 }
 
 }  // namespace sdf_ccd
