@@ -100,7 +100,6 @@ void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
       if (objects_.count(change.object) == 0 || hasShapes(change) || poseIn(change.pose))
         requireAddable(change.object, "ATTACH");
       if (objects_.count(change.object) > 0) permissions.requireUnprotected(change.object, "ATTACH");
-      if (objects_.count(change.object) == 0 || hasShapes(change)) requireAddable(change.object, "ATTACH");
       return attach(change, sources);
     case SceneChange::DETACH:
       requireAllowed(permissions.attach, "attach", "DETACH");
