@@ -66,7 +66,7 @@ TEST(RobotModel, AJointWithoutKinematicsFloats) {
 
 /// Efforts, calibrations and the like say nothing about where links are.
 TEST(RobotModel, WhatNobodyReadsCannotBeWrong) {
-  for (const std::string& rest :
+  for (const std::string rest :
        {"<limit lower='-1' upper='1'/>", "<limit lower='-1' upper='1' effort='strong' velocity='quick'/>",
         "<limit lower='-1' upper='1'/><dynamics/><safety_controller/><calibration rising='x'/>"}) {
     const RobotModel robot = withJoint(jointText("j", "revolute", "b", "c", rest));

@@ -114,8 +114,12 @@ TEST(OverlappingPairs, EachRuleSetsItsOwnAside) {
     for (const RestOverlap& pair : found) {
       const bool is_open = pair.link_b == "arm" && pair.link_a == "ghost";
       EXPECT_EQ(pair.kind, is_open ? RestOverlap::Kind::kOpen : RestOverlap::Kind::kOverlap) << pair.link_b;
-      if (pair.link_b == "wheel") EXPECT_NEAR(pair.depth, 0.03, 0.002);
-      if (pair.link_b == "arm" && !is_open) EXPECT_NEAR(pair.depth, 0.05, 0.01);
+      if (pair.link_b == "wheel") {
+        EXPECT_NEAR(pair.depth, 0.03, 0.002);
+      }
+      if (pair.link_b == "arm" && !is_open) {
+        EXPECT_NEAR(pair.depth, 0.05, 0.01);
+      }
       const bool is_tested = kind == OverlapRule::Kind::kLeaveOut;
       EXPECT_EQ(pair.is_always, is_tested && pair.link_b == "wheel") << pair.link_b;
     }
