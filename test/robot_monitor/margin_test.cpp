@@ -13,9 +13,15 @@ namespace {
 
 using namespace test;
 
-/// A ball of 0.1 m moves at a height above something that fills z <= 0, at a distance from its origin.
-CycleResult slide(const BodyDescription& below, double height, double far, double margin) {
-  const auto scene = build({body("ball", Primitive(Sphere{0.1})), below});
+using SharedScene = std::shared_ptr<const Scene>;
+
+/// A ball of 0.1 m above something that fills z <= 0.
+SharedScene ballAbove(const BodyDescription& below) {
+  return build({body("ball", Primitive(Sphere{0.1})), below});
+}
+
+/// The ball moves at a height, at a distance from the other body's origin.
+CycleResult slide(const SharedScene& scene, double height, double far, double margin) {
   CycleMotion motion;
   motion.times = {0.0, 1.0};
   motion.X_WB = {{translation({far, 0, height + 0.1}), translation({far, 1, height + 0.1})},
@@ -26,8 +32,7 @@ CycleResult slide(const BodyDescription& below, double height, double far, doubl
 }
 
 /// The same of two motions of a planner, one of which is as above.
-MotionVerdict slideAmongMany(const BodyDescription& below, double height, double far, double margin) {
-  const auto scene = build({body("ball", Primitive(Sphere{0.1})), below});
+MotionVerdict slideAmongMany(const SharedScene& scene, double height, double far, double margin) {
   MotionsRequest request;
   request.margin = margin;
   return checkMotions(
@@ -54,20 +59,21 @@ BodyDescription block() {
 
 /// A margin is a distance, not a tilt of the plane about its origin.
 TEST(Margin, HoldsFarFromAPlanesOrigin) {
+  const SharedScene scene = ballAbove(plane());
   for (const double far : {0.0, 10.0, 1000.0}) {
-    EXPECT_EQ(slide(plane(), 0.052, far, 0.05).verdict, Verdict::kClear) << far;
-    EXPECT_EQ(slide(plane(), 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
-    EXPECT_EQ(slide(plane(), -0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
-    EXPECT_EQ(slide(plane(), -0.052, far, 0.05).verdict, Verdict::kContact) << far;
-    EXPECT_EQ(slideAmongMany(plane(), 0.052, far, 0.05).verdict, Verdict::kClear) << far;
-    EXPECT_EQ(slideAmongMany(plane(), 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+    EXPECT_EQ(slide(scene, 0.052, far, 0.05).verdict, Verdict::kClear) << far;
+    EXPECT_EQ(slide(scene, 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+    EXPECT_EQ(slide(scene, -0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
+    EXPECT_EQ(slide(scene, -0.052, far, 0.05).verdict, Verdict::kContact) << far;
+    EXPECT_EQ(slideAmongMany(scene, 0.052, far, 0.05).verdict, Verdict::kClear) << far;
+    EXPECT_EQ(slideAmongMany(scene, 0.048, far, 0.05).verdict, Verdict::kUncertain) << far;
   }
 }
 
 TEST(Margin, IsInNoErrorBound) {
-  for (const BodyDescription& below : {plane(), block()}) {
+  for (const SharedScene& scene : {ballAbove(plane()), ballAbove(block())}) {
     for (const double height : {3.0, 0.052, 0.03, 0.01, -0.03, -0.08}) {
-      const CycleResult with = slide(below, height, 0.0, 0.05), without = slide(below, height, 0.0, 0.0);
+      const CycleResult with = slide(scene, height, 0.0, 0.05), without = slide(scene, height, 0.0, 0.0);
       ASSERT_EQ(with.pairs.size(), 1U);
       // The error of a pair that stays UNCERTAIN says how near the surfaces come beyond the margin, as far as that is
       // searched for.
@@ -78,7 +84,7 @@ TEST(Margin, IsInNoErrorBound) {
       if (with.verdict == without.verdict) {
         EXPECT_NEAR(with.error_bound, without.error_bound, 1e-9) << height;
       }
-      const MotionVerdict among = slideAmongMany(below, height, 0.0, 0.05);
+      const MotionVerdict among = slideAmongMany(scene, height, 0.0, 0.05);
       EXPECT_EQ(among.verdict, with.verdict) << height;
       if (among.verdict != Verdict::kUncertain) {
         EXPECT_LT(among.error_bound, 2e-3) << height;
@@ -119,8 +125,9 @@ TEST(Margin, HoldsForPairsThatAreNotTestedAgain) {
 }
 
 TEST(Margin, IsRefusedIfItIsNone) {
+  const SharedScene scene = ballAbove(plane());
   for (const double wrong : {-1.0, 1e10, std::nan("")})
-    EXPECT_THROW(slide(plane(), 1.0, 0.0, wrong), std::invalid_argument) << wrong;
+    EXPECT_THROW(slide(scene, 1.0, 0.0, wrong), std::invalid_argument) << wrong;
 }
 
 }  // namespace
