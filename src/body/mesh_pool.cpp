@@ -52,7 +52,8 @@ MeshPool::TimeUsed& MeshPool::timeOf(const BodyDescription& body) {
 
 std::string MeshPool::tooLong() const {
   return "preparing it takes more than the " + numberText(options_.max_preparation_time) +
-         " s of max_preparation_time: its meshes have too many triangles, or too many that cross each other";
+         " s of max_preparation_time: its meshes have too many triangles, too many that cross each other, or too fine a "
+         "field or shell";
 }
 
 ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, const ShellUse& use) const {
