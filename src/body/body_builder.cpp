@@ -221,8 +221,7 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   body.ball = surfaceBall(body);
   if (!needs.shell) return;
   report.shell_points = body.shell->size();
-  report.shell_bytes =
-      body.shell->size() * PointShell::kBytesPerPoint + body.tree->nodes.size() * sizeof(SphereTree::Node);
+  report.shell_bytes = bytesOf(body.shell, body.tree);
   report.gap = contactGap(body.shell, body.shell);
 }
 

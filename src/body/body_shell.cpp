@@ -67,6 +67,10 @@ PointShell unionShell(const std::vector<ShellPart>& parts) {
   return shell;
 }
 
+std::size_t bytesOf(const PointShell& shell, const SphereTree& tree) {
+  return shell.size() * PointShell::kBytesPerPoint + tree.nodes.size() * sizeof(SphereTree::Node);
+}
+
 BoundingBall boundingBall(const PointShell& shell) {
   AlignedBox3d box;
   const std::vector<Vector3d> points = shell.points();

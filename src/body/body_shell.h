@@ -22,6 +22,9 @@ struct ShellPart {
 /// inside no sibling, the point near it on that edge is kept.
 PointShell unionShell(const std::vector<ShellPart>& parts);
 
+/// Of a shell and its tree.
+std::size_t bytesOf(const PointShell& shell, const SphereTree& tree);
+
 /// A small ball around all points of a shell.
 BoundingBall boundingBall(const PointShell& shell);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "body/body_shell.h"
 #include "body/body_surface.h"
 #include "body/body_triangles.h"
 #include "body/build_body.h"
@@ -15,10 +16,6 @@ constexpr std::size_t kUnused = 256, kUnusedBytes = std::size_t{32} << 20;  // l
 
 std::size_t bytesOf(const TriangleMesh& mesh) {
   return mesh.vertices.size() * sizeof(Vector3d) + mesh.triangles.size() * sizeof(Vector3i);
-}
-
-std::size_t bytesOf(const SharedValue<PointShell>& shell, const SharedValue<SphereTree>& tree) {
-  return shell->size() * PointShell::kBytesPerPoint + tree->nodes.size() * sizeof(SphereTree::Node);
 }
 
 /// Of all that it has, also what it shares with others: reports count that for one of them.

@@ -1,11 +1,10 @@
 #include "ros/monitor/health_watch.h"
 
 #include <algorithm>
-#include <iterator>
 
-#include <fmt/format.h>
 #include <ros/console.h>
 
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "monitor/no_pairs.h"
 #include "monitor/over_budget.h"
@@ -30,9 +29,8 @@ void setFinding(const CycleSafety& safety, const MonitorState& state, std::strin
     text = state.reason;
   } else {
     const bool is_error = safety.health == Health::kError;
-    const std::uint32_t pairs = is_error ? state.pairs_not_checked : state.pairs_delayed;
-    fmt::format_to(std::back_inserter(text), "{} pair{} {}", pairs, pairs == 1 ? "" : "s",
-                   is_error ? "could not be checked" : "wait for late transforms");
+    text += counted(is_error ? state.pairs_not_checked : state.pairs_delayed, "pair");  // short: allocates nothing
+    text += is_error ? " could not be checked" : " wait for late transforms";
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/counted.h"
 #include "model/name_pair.h"
 #include "ros/tf/seconds_between.h"
 
@@ -48,9 +49,9 @@ void setUncheckedCycle(const MonitorLoop& loop, std::string& reason) {
   const auto first = std::find_if(result.pairs.begin(), result.pairs.end(), isUnchecked);
   if (first != result.pairs.end()) {
     const BodyList& bodies = loop.scene().bodies;
-    fmt::format_to(text, "{} pair{} could not be checked, for example {} - {}: {}", result.not_checked,
-                   result.not_checked == 1 ? "" : "s", bodies[first->body_a].name, bodies[first->body_b].name,
-                   first->reason);
+    fmt::format_to(text, "{} could not be checked, for example {} - {}: {}",
+                   counted(static_cast<std::size_t>(result.not_checked), "pair"), bodies[first->body_a].name,
+                   bodies[first->body_b].name, first->reason);
   }
   if (result.delayed > 0) {
     fmt::format_to(text, "{}{} pairs wait for transforms, for up to {:.3f} s", reason.empty() ? "" : ", ",
