@@ -1,6 +1,7 @@
 // Fuzzes the sections of a field file (uniform or adaptive, a macro says which), then queries the field.
 #include <cmath>
 
+#include "oracle/file_versions.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "valid_file.h"
@@ -47,7 +48,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;
   static const fuzz::InputFile file(".field");
   fuzz::attempt([&] {
-    fuzz::writeWithChecksum(data, size, file, SDF_CCD_FUZZ_KIND, fuzz::kFieldVersion);
+    fuzz::writeWithChecksum(data, size, file, SDF_CCD_FUZZ_KIND, test::kFieldVersion);
     fuzz::query(loadField(file.path()));
   });
   return 0;

@@ -1,6 +1,7 @@
 // Fuzzes the sections of a shell file, then builds the sphere tree of its points.
 #include <cmath>
 
+#include "oracle/file_versions.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "valid_file.h"
 
@@ -8,7 +9,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;
   static const fuzz::InputFile file(".shell");
   fuzz::attempt([&] {
-    fuzz::writeWithChecksum(data, size, file, "shell", fuzz::kShellVersion);
+    fuzz::writeWithChecksum(data, size, file, "shell", test::kShellVersion);
     PointShell shell = loadShell(file.path());
     const SphereTree tree = buildSphereTree(shell);
     for (const SphereTree::Node& node : tree.nodes) {

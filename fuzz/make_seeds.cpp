@@ -11,6 +11,7 @@
 #endif
 
 #include "import/read_answer.h"
+#include "oracle/file_versions.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
@@ -96,7 +97,7 @@ class Seeds {
       const bool is_adaptive = options.max_error > 0.0;
       saveField(buildField(mesh, options), file.path());
       add(is_adaptive ? "adaptive_field" : "field", name,
-          inputOf(file.path(), is_adaptive ? "adaptive field" : "field", kFieldVersion));
+          inputOf(file.path(), is_adaptive ? "adaptive field" : "field", test::kFieldVersion));
     };
     FieldOptions even, adaptive;
     even.cells = 4;
@@ -109,7 +110,7 @@ class Seeds {
     ShellOptions shell;
     shell.spacing = 0.2;
     saveShell(sampleSurface(box, shell), file.path());
-    add("shell", "box", inputOf(file.path(), "shell", kShellVersion));
+    add("shell", "box", inputOf(file.path(), "shell", test::kShellVersion));
   }
 
   void writeAnswers() {

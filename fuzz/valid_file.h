@@ -9,9 +9,6 @@
 
 namespace sdf_ccd::fuzz {
 
-// Versions of the present file formats; make_seeds fails if they are out of date.
-constexpr std::uint32_t kFieldVersion = 9, kShellVersion = 7;
-
 /// Writes an input as a checked file with a valid checksum, so that the reader goes on to the content. The input is the
 /// concatenation of sections, each after its size (four bytes); sections missing at its end are left out.
 inline void writeWithChecksum(const std::uint8_t* data, std::size_t size, const InputFile& file, const char* kind,

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "oracle/file_versions.h"
 #include "oracle/files.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd::test {
-
-constexpr std::uint32_t kFieldVersion = 10;  ///< of the files of fields
 
 /// A mesh, options of its fields, and a directory for their files.
 class FieldFileCase : public testing::Test {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/failure.h"
+#include "oracle/file_versions.h"
 #include "oracle/files.h"
 #include "oracle/mended_file.h"
 #include "oracle/shapes.h"
@@ -15,8 +16,6 @@
 
 namespace sdf_ccd {
 namespace {
-
-constexpr std::uint32_t kVersion = 7;
 
 class ShellFile : public ::testing::Test {
  protected:
@@ -55,7 +54,7 @@ TEST_F(ShellFile, EmptyShellComesBack) {
 
 TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
   saveShell(shell_, path_.string());
-  const test::EditedFile good(path_.string(), "shell", kVersion);
+  const test::EditedFile good(path_.string(), "shell", test::kShellVersion);
   good.write(path_.string(), [](auto& sections) { sections[3].resize(sizeof(float)); });
   EXPECT_NE(test::failureOf([&] { loadShell(path_.string()); }).find("2 points, 2 normals, 1 areas"),
             std::string::npos);
@@ -68,7 +67,7 @@ TEST_F(ShellFile, PartsThatDoNotFitEachOtherAreRefused) {
 TEST_F(ShellFile, NumbersThatAreNoPointsAreRefused) {
   const PointShell good = shell_;
   saveShell(good, path_.string());
-  const test::EditedFile file(path_.string(), "shell", kVersion);
+  const test::EditedFile file(path_.string(), "shell", test::kShellVersion);
   const auto expectRefused = [&](auto change) {
     shell_ = good;
     change();
