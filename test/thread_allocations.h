@@ -1,36 +1,17 @@
 #pragma once
 
-#include <sys/syscall.h>
-#include <unistd.h>
+#include <sys/types.h>
 
 #include <atomic>
-#include <cerrno>
-#include <cstddef>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define SDF_CCD_SANITIZED
-#endif
-#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define SDF_CCD_SANITIZED
-#endif
-
-/// Counts what one thread of a test program allocates, through operator new or as Eigen and TBB do. For one source of
-/// each program: it replaces malloc. Sanitizers have a malloc of their own; under them nothing is counted.
+/// Counts what one thread of a test program allocates, through operator new or as Eigen and TBB do; links
+/// test_allocations, which replaces malloc. Sanitizers have a malloc of their own; under them nothing is counted.
 namespace sdf_ccd::test {
 
-inline std::atomic<pid_t> counted_thread{0};  // 0: none
-inline std::atomic<long> counted_allocations{0};
+extern std::atomic<pid_t> counted_thread;  // 0: none
+extern std::atomic<long> counted_allocations;
 
-inline pid_t threadId() {
-  thread_local const auto id = static_cast<pid_t>(syscall(SYS_gettid));
-  return id;
-}
-
-inline void countAllocation() {
-  const pid_t counted = counted_thread.load(std::memory_order_relaxed);
-  if (counted != 0 && counted == threadId()) counted_allocations.fetch_add(1, std::memory_order_relaxed);
-}
+pid_t threadId();
 
 /// The allocations of a thread while this exists, which is once at a time.
 class ThreadAllocations {
@@ -47,36 +28,3 @@ class ThreadAllocations {
 };
 
 }  // namespace sdf_ccd::test
-
-#ifndef SDF_CCD_SANITIZED
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
-void* malloc(std::size_t size) noexcept {
-  sdf_ccd::test::countAllocation();
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) noexcept {
-  sdf_ccd::test::countAllocation();
-  return __libc_calloc(count, size);
-}
-void* realloc(void* memory, std::size_t size) noexcept {
-  sdf_ccd::test::countAllocation();
-  return __libc_realloc(memory, size);
-}
-void* memalign(std::size_t alignment, std::size_t size) noexcept {
-  sdf_ccd::test::countAllocation();
-  return __libc_memalign(alignment, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  return memalign(alignment, size);
-}
-int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexcept {
-  *memory = memalign(alignment, size);
-  return *memory == nullptr ? ENOMEM : 0;
-}
-}
-#endif

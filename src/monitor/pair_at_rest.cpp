@@ -12,22 +12,12 @@ Isometry3d PairChecker::poseAtRest() const {
   return relativeMotion().f() == pair_.body_a ? X_FP : X_FP.inverse();
 }
 
-/// Whether the bodies rested in this pose in the last cycle that was tested, too.
-bool PairChecker::hasRested() {
-  const Isometry3d X_AB = poseAtRest();
-  const BoundingBall& ball = scene_.bodies[pair_.body_b].ball;
-  const bool has = X_AB_rested_ && maxDisplacement(*X_AB_rested_, X_AB, ball) <= RestingAnswers::kMoved;
-  X_AB_rested_ = X_AB;
-  return has;
-}
-
 RestingAnswers::Bodies PairChecker::restingBodies() const {
   return {scene_.bodies.shared(pair_.body_a), scene_.bodies.shared(pair_.body_b)};
 }
 
 /// Whether the pair is answered by what was found before.
-bool PairChecker::isAnswered(const SweptBodies& bodies, const CycleRequest& request, PairResult& result) {
-  const double error = motion_error_ + travel_;
+bool PairChecker::isAnswered(const SweptBodies& bodies, double error, const CycleRequest& request, PairResult& result) {
   const auto known = resting_->find(restingBodies(), poseAtRest(), error, request, options_);
   if (!known) return false;
   forgetClearance();
@@ -37,14 +27,13 @@ bool PairChecker::isAnswered(const SweptBodies& bodies, const CycleRequest& requ
 
 /// Answers a pair that is not clear once for all, as if nothing moved in the world either. What is known only from the
 /// motion before, as of a body in an open mesh, is left as it is.
-void PairChecker::answerOnce(const SweptBodies& bodies, const CycleRequest& request, PairResult& result) {
-  if (result.verdict != Verdict::kUncertain && result.verdict != Verdict::kContact) return;
+void PairChecker::answerOnce(const SweptBodies& bodies, double error, const CycleRequest& request, PairResult& result) {
   const Isometry3d X_AB = poseAtRest();
   const BoundingBall& ball = scene_.bodies[pair_.body_b].ball;
   if (X_AB_as_it_came_ && maxDisplacement(*X_AB_as_it_came_, X_AB, ball) <= RestingAnswers::kMoved) return;
   X_AB_as_it_came_.reset();
   try {
-    const std::shared_ptr<const RestingAnswer> found = findAtRest(X_AB, request);
+    const std::shared_ptr<const RestingAnswer> found = findAtRest(X_AB, error, request);
     const Verdict verdict = found->result.verdict;
     if (verdict != result.verdict && (result.verdict == Verdict::kContact || verdict == Verdict::kNotChecked)) {
       X_AB_as_it_came_ = X_AB;
@@ -57,17 +46,17 @@ void PairChecker::answerOnce(const SweptBodies& bodies, const CycleRequest& requ
       return setClear(found->result.clearance + found->error - RestingAnswers::kMoved, result);
     }
     resting_->keep(restingBodies(), found);
-    setResting(*found, bodies, motion_error_ + travel_, request.max_points, result);
+    setResting(*found, bodies, error, request.max_points, result);
   } catch (const Cancelled&) {
     // The cycle's time is used up: what test() has found stands.
   }
 }
 
-std::shared_ptr<const RestingAnswer> PairChecker::findAtRest(const Isometry3d& X_AB,
+std::shared_ptr<const RestingAnswer> PairChecker::findAtRest(const Isometry3d& X_AB, double error,
                                                              const CycleRequest& request) const {
   auto answer = std::make_shared<RestingAnswer>();
   answer->X_AB = X_AB;
-  answer->error = RestingAnswers::errorFor(motion_error_ + travel_ + RestingAnswers::kMoved);
+  answer->error = RestingAnswers::errorFor(error + RestingAnswers::kMoved);
   answer->request = request;
   answer->request.margin = answer->request.max_time = 0.0;  // the error contains the margin
   answer->request.times = nullptr;

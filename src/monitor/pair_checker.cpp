@@ -97,7 +97,6 @@ void PairChecker::take(const PairChecker& other) {
   X_FP_last_ = other.X_FP_last_;
   untold_ = other.untold_;
   X_AB_as_it_came_ = other.X_AB_as_it_came_;
-  X_AB_rested_ = other.X_AB_rested_;
   if (surfaces_) surfaces_->take(*other.surfaces_);
 }
 
@@ -156,13 +155,11 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
     return;
   }
   const bool rests = resting_ && travel_ <= kStill && !inside_;  // inside_ is known from the motion before
-  if (rests && isAnswered(bodies, request, result)) return;
+  const double error_at_rest = motion_error_ + travel_;          // test() may change them to those of fields
+  if (rests && isAnswered(bodies, error_at_rest, request, result)) return;
   test(motion, bodies, request, given_error, margin, result);
-  if (!rests) {
-    X_AB_rested_.reset();
-  } else if (hasRested()) {  // so that bodies that turn round are not answered for nothing
-    answerOnce(bodies, request, result);
-  }
+  if (rests && mayTouch(result.verdict) && resting_->haveRested(restingBodies(), poseAtRest()))
+    answerOnce(bodies, error_at_rest, request, result);
 }
 
 void PairChecker::test(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,

@@ -41,8 +41,8 @@ class PairChecker {
   void run(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
            PairResult& result);
 
-  /// Computes what is missing in an incomplete result of run() with the same arguments. Where PairMemory::deadline comes
-  /// first, it stays incomplete.
+  /// Computes what is missing in an incomplete result of run() with the same arguments. Where PairMemory::deadline
+  /// comes first, it stays incomplete.
   void complete(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairMemory& memory,
                 PairResult& result);
 
@@ -114,10 +114,10 @@ class PairChecker {
   // Of a pair whose bodies rest relative to each other:
   Isometry3d poseAtRest() const;
   RestingAnswers::Bodies restingBodies() const;
-  bool hasRested();
-  bool isAnswered(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
-  void answerOnce(const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
-  std::shared_ptr<const RestingAnswer> findAtRest(const Isometry3d& X_AB, const CycleRequest& request) const;
+  bool isAnswered(const SweptBodies& bodies, double error, const CycleRequest& request, PairResult& result);
+  void answerOnce(const SweptBodies& bodies, double error, const CycleRequest& request, PairResult& result);
+  std::shared_ptr<const RestingAnswer> findAtRest(const Isometry3d& X_AB, double error,
+                                                  const CycleRequest& request) const;
 
   const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
@@ -148,7 +148,7 @@ class PairChecker {
   const PlannedPair& pair_;
   const std::vector<ContactCollector::BodyData>& body_data_;  // per body
   const MonitorOptions& options_;
-  RestingAnswers* resting_;     // null: every cycle is tested
+  RestingAnswers* resting_;    // null: every cycle is tested
   bool balls_contain_bodies_;  // the bodies' balls contain all of them
   bool open_;                  // a point inside some field may be outside its body
   PairRoles roles_;
@@ -163,10 +163,9 @@ class PairChecker {
   Isometry3d X_FP_last_ = Isometry3d::Identity();   // of surfaces_ or the first role; valid if one of these is known
   std::optional<Untold> untold_;
   std::optional<Isometry3d> X_AB_as_it_came_;  // there the answer depends on the motion before
-  std::optional<Isometry3d> X_AB_rested_;  // in the last cycle that was tested, if the bodies rested
 
   // Of this cycle:
-  double travel_ = 0.0;           // upper bound of the relative displacement of the bodies' points in this cycle [m]
+  double travel_ = 0.0;  // upper bound of the relative displacement of the bodies' points in this cycle [m]
   /// Of the given motion, and of computing with its poses; during a check plus CycleRequest::margin, which counts like
   /// an error there [m].
   double motion_error_ = 0.0;

@@ -35,6 +35,12 @@ bool holdsFor(const RestingAnswer& answer, double error) {
   return answer.error <= RestingAnswers::errorFor(error) + RestingAnswers::kMoved;
 }
 
+/// Whether neither body moves by more than kMoved relative to the other one.
+bool areSame(const Isometry3d& X_AB, const Isometry3d& other, const RestingAnswers::Bodies& bodies) {
+  return std::max(maxDisplacement(X_AB, other, bodies.second->ball),
+                  maxDisplacement(X_AB.inverse(), other.inverse(), bodies.first->ball)) <= RestingAnswers::kMoved;
+}
+
 /// Poses of a body over a span of a cycle.
 class SpanPoses {
  public:
@@ -65,21 +71,32 @@ std::shared_ptr<const RestingAnswer> RestingAnswers::find(const Bodies& bodies, 
     return nullptr;
   for (const auto& answer : found->second.answers) {
     if (!contains(answer->request, request) || !areEqual(answer->options, options)) continue;
-    const double moved = maxDisplacement(answer->X_AB, X_AB, bodies.second->ball);
-    const double moved_back = maxDisplacement(answer->X_AB.inverse(), X_AB.inverse(), bodies.first->ball);
-    if (std::max(moved, moved_back) <= kMoved && holdsFor(*answer, error + kMoved)) return answer;
+    if (areSame(answer->X_AB, X_AB, bodies) && holdsFor(*answer, error + kMoved)) return answer;
   }
   return nullptr;
+}
+
+bool RestingAnswers::haveRested(const Bodies& bodies, const Isometry3d& X_AB) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::optional<Isometry3d>& rested = entryOf(bodies).X_AB_rested;
+  const bool have = rested && areSame(*rested, X_AB, bodies);
+  rested = X_AB;
+  return have;
 }
 
 void RestingAnswers::keep(const Bodies& bodies, std::shared_ptr<const RestingAnswer> answer) {
   constexpr std::size_t kMost = 16;  // per pair: for different errors and requests
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (entries_.size() >= size_at_drop_) dropOld();
-  Entry& entry = entries_[{bodies.first.get(), bodies.second.get()}];
-  if (entry.a.lock() != bodies.first || entry.b.lock() != bodies.second) entry = {bodies.first, bodies.second, {}};
+  Entry& entry = entryOf(bodies);
   if (entry.answers.size() >= kMost) entry.answers.erase(entry.answers.begin());
   entry.answers.push_back(std::move(answer));
+}
+
+RestingAnswers::Entry& RestingAnswers::entryOf(const Bodies& bodies) {
+  if (entries_.size() >= size_at_drop_) dropOld();
+  Entry& entry = entries_[{bodies.first.get(), bodies.second.get()}];
+  if (entry.a.lock() != bodies.first || entry.b.lock() != bodies.second) entry = {bodies.first, bodies.second, {}, {}};
+  return entry;
 }
 
 /// Removes the answers of bodies that no scene has any more.

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,10 @@ class RestingAnswers {
   std::shared_ptr<const RestingAnswer> find(const Bodies& bodies, const Isometry3d& X_AB, double error,
                                             const CycleRequest& request, const MonitorOptions& options) const;
 
+  /// Whether the pair rested in this pose when this was last asked, in whichever cycle or query. Bodies that only turn
+  /// round need no answer.
+  bool haveRested(const Bodies& bodies, const Isometry3d& X_AB);
+
   void keep(const Bodies& bodies, std::shared_ptr<const RestingAnswer> answer);
 
   /// A pose within this is the same one [m]: far more than rounding, and far less than what anyone can measure.
@@ -46,9 +51,11 @@ class RestingAnswers {
  private:
   struct Entry {
     std::weak_ptr<const Body> a, b;
+    std::optional<Isometry3d> X_AB_rested;
     std::vector<std::shared_ptr<const RestingAnswer>> answers;
   };
 
+  Entry& entryOf(const Bodies& bodies);
   void dropOld();
 
   mutable std::mutex mutex_;

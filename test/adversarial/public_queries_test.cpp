@@ -6,8 +6,7 @@
 
 #include "oracle/test_data.h"
 
-namespace sdf_ccd::test {
-namespace {
+namespace sdf_ccd::test::public_queries_test {
 
 void expectNoneWrong(const Tally& tally) {
   for (const auto& [what, failure] : tally.failures)
@@ -33,5 +32,4 @@ TEST(PublicQueries, NoneIsAnsweredWronglyAsThinBodies) {
   EXPECT_GT(tally.contact, tally.cases / 50);
 }
 
-}  // namespace
-}  // namespace sdf_ccd::test
+}  // namespace sdf_ccd::test::public_queries_test

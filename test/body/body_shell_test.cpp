@@ -10,8 +10,7 @@
 #include "shell/contact_gap.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::body_shell_test {
 
 using namespace test;
 
@@ -103,5 +102,4 @@ TEST(UnionShell, GapHoldsWhereverUnionsMeet) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::body_shell_test

@@ -6,8 +6,7 @@
 
 #include "body/body_options.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::element_options_test {
 
 constexpr double kFinger = 0.0041;  // surface of 5 x 2 x 1.5 cm [m^2]
 
@@ -61,5 +60,4 @@ TEST(ElementOptions, WhatIsGivenHoldsEverywhere) {
   EXPECT_TRUE(mayShellBeCoarser(given) && !mayFieldBeCoarser(given));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::element_options_test

@@ -12,8 +12,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/sdf_ccd.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::prepare_body_test {
 
 const Accuracy kMillimetre{1e-3, {}};
 
@@ -256,5 +255,4 @@ TEST(SharedBodies, AreOfTheSameContentAndOptions) {
   expectOther(reordered, options, "order of triangles");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::prepare_body_test

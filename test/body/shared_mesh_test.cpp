@@ -7,8 +7,7 @@
 #include "oracle/xxh64_twin.h"
 #include "storage/content_hash.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::shared_mesh_test {
 
 using MeshPointer = std::shared_ptr<const TriangleMesh>;
 
@@ -53,5 +52,4 @@ TEST(SharedMesh, MeshesUnderOneHashAreCompared) {
   EXPECT_EQ(sharedMesh(store, "another", other), other);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::shared_mesh_test

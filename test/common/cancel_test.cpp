@@ -7,8 +7,7 @@
 
 #include "common/parallel_for.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cancel_test {
 
 TEST(Cancel, WithoutAScopeNothingIsCancelled) {
   EXPECT_NO_THROW(checkCancelled());
@@ -83,5 +82,4 @@ TEST(Cancel, ReachesTasksOnOtherThreads) {
   EXPECT_LT(done, 1000000);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cancel_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::compiler_lanes_test {
 
 using namespace lanes;
 
@@ -45,5 +44,4 @@ TEST(CompilerLanes, AmountsHaveNoSign) {
   EXPECT_EQ(of_doubles[3], 5e-324);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::compiler_lanes_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::nearest_name_test {
 
 TEST(NearestName, FindsWhatWasMeant) {
   const std::set<std::string> known = {"xyz", "rpy", "frame", "cell_size", "cells", "max_error", "name"};
@@ -25,5 +24,4 @@ TEST(NearestName, SuggestsOrListsWhatIsKnown) {
   EXPECT_EQ(suggestion("stiffness", {}), "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::nearest_name_test

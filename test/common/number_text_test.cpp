@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::number_text_test {
 
 TEST(NumberText, LengthsHaveAUnitThatFits) {
   EXPECT_EQ(lengthText(0.0), "0 mm");
@@ -30,5 +29,4 @@ TEST(NumberText, Digits) {
   EXPECT_EQ(fixedText(2.0, 3), "2.000");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::number_text_test

@@ -7,8 +7,7 @@
 #include "common/number_text.h"
 #include "oracle/german_locale.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::read_number_test {
 
 TEST(ReadNumber, IsTheWholeTextOrNone) {
   EXPECT_EQ(wholeNumber("1.5"), 1.5);
@@ -33,5 +32,4 @@ TEST(ReadNumber, ThePointIsTheDecimalSignInEveryLocale) {
   EXPECT_EQ(vectorText({0.5, 1.25, -2.0}), "(0.5, 1.25, -2)");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::read_number_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::setting_keys_test {
 
 TEST(SettingKeys, TellsWhichWereNotRead) {
   SettingKeys keys({"radius", "xyz", "raduis"});
@@ -31,5 +30,4 @@ TEST(SettingKeys, FindsTheMisspellingOfAMissingKey) {
   EXPECT_EQ(keys.misspellingOf("lenght"), "") << "length was read, as itself";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::setting_keys_test

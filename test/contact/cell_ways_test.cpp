@@ -9,8 +9,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cell_ways_test {
 
 using namespace test;
 using Real = long double;
@@ -206,5 +205,4 @@ TEST(CellWays, PointsTogetherAreAsEachByItself) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cell_ways_test

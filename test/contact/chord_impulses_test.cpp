@@ -5,8 +5,7 @@
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::chord_impulses_test {
 
 using namespace test;
 
@@ -65,5 +64,4 @@ TEST(ChordImpulses, AreTheSumOfImpulsesTurnedByThemselves) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::chord_impulses_test

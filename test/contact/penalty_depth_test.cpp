@@ -8,8 +8,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::penalty_depth_test {
 
 using namespace test;
 
@@ -139,5 +138,4 @@ TEST(Penalty, DepthsOnTheFacesOfCellsHaveErrorsThatHold) {
   EXPECT_GT(jumps, 0) << "nothing tests the jumps";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::penalty_depth_test

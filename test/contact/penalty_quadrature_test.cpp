@@ -7,8 +7,7 @@
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::penalty_quadrature_test {
 
 using namespace test;
 
@@ -126,5 +125,4 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::penalty_quadrature_test

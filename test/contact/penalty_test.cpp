@@ -9,8 +9,7 @@
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::penalty_test {
 
 using namespace test;
 
@@ -254,5 +253,4 @@ TEST(Penalty, RefusesBadOptions) {
   EXPECT_THROW(poses.run(perArea()), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::penalty_test

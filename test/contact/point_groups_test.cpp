@@ -1,4 +1,5 @@
-// Points that are deep together. Expected values: sums over all points, with distances and normals of the solids by hand.
+// Points that are deep together. Expected values: sums over all points, with distances and normals of the solids by
+// hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,10 +9,10 @@
 #include "contact/point_groups.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
+#include "oracle/rounds.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::point_groups_test {
 
 using namespace test;
 
@@ -25,15 +26,15 @@ struct Inside {
 constexpr double kRadius = 2.0, kHalf = 1.5;
 
 const Inside kGround{HalfSpace{Vector3d::UnitZ(), 0.0}, [](const Vector3d& p) { return -p.z(); },
-                    [](const Vector3d&) { return Vector3d(Vector3d::UnitZ()); }};
+                     [](const Vector3d&) { return Vector3d(Vector3d::UnitZ()); }};
 const Inside kBall{Sphere{kRadius}, [](const Vector3d& p) { return kRadius - p.norm(); },
-                  [](const Vector3d& p) { return Vector3d(p.normalized()); }};
+                   [](const Vector3d& p) { return Vector3d(p.normalized()); }};
 const Inside kRoom{Box{Vector3d::Constant(kHalf)}, [](const Vector3d& p) { return kHalf - p.cwiseAbs().maxCoeff(); },
-                  [](const Vector3d& p) {
-                    int axis;
-                    p.cwiseAbs().maxCoeff(&axis);
-                    return Vector3d(std::copysign(1.0, p[axis]) * Vector3d::Unit(axis));
-                  }};
+                   [](const Vector3d& p) {
+                     int axis;
+                     p.cwiseAbs().maxCoeff(&axis);
+                     return Vector3d(std::copysign(1.0, p[axis]) * Vector3d::Unit(axis));
+                   }};
 
 /// A shell inside a field, and what the points that a query finds there are divided into.
 struct DeepCase {
@@ -92,18 +93,19 @@ Isometry3d deepPose(Random& random, double depth) {
 TEST(PointGroups, BearTheForceOfTheirPoints) {
   Random random(3);
   for (const Inside* solid : {&kGround, &kBall, &kRoom}) {
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < rounds(30); ++i) {
       const Isometry3d X = deepPose(random, uniform(random, 0.0, 1.2));
       DeepCase deep(*solid, i % 2 ? kLink : Primitive(Sphere{0.2}), 0.005, X, X);
       double force;
       const Wrench expected = deep.byAllPoints(force), found = deep.grouped();
       if (force == 0.0) continue;
-      // In the room the nearest face changes within groups, near the ball's centre its direction: up to 5 and 0.8 % of all
-      // forces' amounts in these cases. Elsewhere forces are exact.
+      // In the room the nearest face changes within groups, near the ball's centre its direction: up to 5 and 0.8 % of
+      // all forces' amounts in these cases. Elsewhere forces are exact.
       const double error = solid == &kRoom ? 0.08 : solid == &kBall ? 0.015 : 1e-5;
       EXPECT_LT((found.force - expected.force).norm(), error * force) << i;
       const Vector3d arm = X.translation();  // about the shell's middle
-      const Vector3d torque_error = (found.torque - arm.cross(found.force)) - (expected.torque - arm.cross(expected.force));
+      const Vector3d torque_error =
+          (found.torque - arm.cross(found.force)) - (expected.torque - arm.cross(expected.force));
       EXPECT_LT(torque_error.norm(), std::max(0.02, error) * 0.3 * force) << i;
     }
   }
@@ -167,5 +169,4 @@ TEST(PointGroups, KnowHowDeepTheirPointsGet) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::point_groups_test

@@ -7,8 +7,7 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/query/segment_query.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::smooth_piece_test {
 
 using namespace test;
 
@@ -98,5 +97,4 @@ TEST(SmoothPiece, IsNotMoreThanOne) {
   EXPECT_FALSE(isSmooth(grid, {0.0, 0.0, 0.09}, {0.05, 0.0, 0.09}));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::smooth_piece_test

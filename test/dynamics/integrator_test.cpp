@@ -6,8 +6,7 @@
 #include "oracle/persistent_contact.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::integrator_test {
 
 using namespace test;
 
@@ -303,5 +302,4 @@ TEST(Integrator, BadOptionsAreRefused) {
   EXPECT_THROW(makeIntegrator(Scheme::kImplicit, world), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::integrator_test

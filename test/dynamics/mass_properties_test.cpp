@@ -7,8 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::mass_properties_test {
 
 using namespace test;
 
@@ -88,5 +87,4 @@ TEST(MassProperties, ImpossibleInertiasAreRefused) {
   EXPECT_THROW(validateInertia(1.0, skewed), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::mass_properties_test

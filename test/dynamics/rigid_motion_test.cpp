@@ -6,8 +6,7 @@
 #include "oracle/failure.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::rigid_motion_test {
 
 using namespace test;
 
@@ -95,5 +94,4 @@ TEST(RigidMotion, WhatCannotBeComputedNamesBodyStepAndReason) {
   EXPECT_NE(messageOf({std::nan(""), 0, 0}, Vector3d::Zero()).find("no longer finite"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::rigid_motion_test

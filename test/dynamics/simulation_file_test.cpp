@@ -11,8 +11,7 @@
 #include "oracle/german_locale.h"
 #include "oracle/parameter_name.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::simulation_file_test {
 
 constexpr char kBoxOnPlane[] = R"(
 step: 0.001
@@ -179,5 +178,4 @@ TEST_P(ShippedScene, KeepsItsReactionsAndItsEnergy) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedScene, ::testing::Values("drop", "bowls", "stack", "top", "wedge", "nut", "pile"),
                          test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::simulation_file_test

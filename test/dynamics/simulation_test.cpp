@@ -6,8 +6,7 @@
 #include "oracle/bodies.h"
 #include "oracle/failure.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::simulation_test {
 
 using namespace test;
 
@@ -94,5 +93,4 @@ TEST(Simulation, ExplosionEndsInAnErrorAndLeavesTheLastGoodState) {
   EXPECT_TRUE(stopped);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::simulation_test

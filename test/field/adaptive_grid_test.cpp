@@ -14,8 +14,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::adaptive_grid_test {
 
 using test::Random;
 
@@ -350,5 +349,4 @@ TEST(AdaptiveGrid, DamagedIndicesAreRefused) {
   EXPECT_THROW(AdaptiveGrid(shape, loop), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::adaptive_grid_test

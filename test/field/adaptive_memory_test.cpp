@@ -6,8 +6,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::adaptive_memory_test {
 
 constexpr long kConstant = 3 << 20;  // search structures, and the cells at which the threads are
 
@@ -40,5 +39,4 @@ TEST(AdaptiveMemory, BuildingTakesNoMoreThanTwoAndAHalfTimesTheField) {
   EXPECT_LT(peak, 5 * bytes / 2 + kConstant);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::adaptive_memory_test

@@ -6,8 +6,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cell_reader_test {
 
 using namespace test;
 
@@ -38,5 +37,4 @@ TEST(CellReader, SaysBitByBitWhatTheFieldSays) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cell_reader_test

@@ -16,8 +16,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::distance_field_test {
 
 using test::Random;
 
@@ -361,5 +360,4 @@ TEST(Trilinear, JensenBoundHoldsForEveryLipschitzFunction) {
   EXPECT_GT(worst_share, 0.7);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::distance_field_test

@@ -5,8 +5,7 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::drawn_mesh_test {
 
 DistanceField fieldOf(const TriangleMesh& mesh, double cell) {
   FieldOptions options;
@@ -59,5 +58,4 @@ TEST(DrawnMesh, ACavityStaysACavity) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::drawn_mesh_test

@@ -9,8 +9,7 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::empty_sphere_test {
 
 using test::Random;
 
@@ -124,5 +123,4 @@ TEST(EmptySphere, LowerBoundsHoldAwayFromTheSurface) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::empty_sphere_test

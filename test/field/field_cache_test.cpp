@@ -14,8 +14,7 @@
 #include "oracle/files.h"
 #include "oracle/open_shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::field_cache_test {
 
 namespace fs = std::filesystem;
 using test::expectSame;
@@ -132,5 +131,4 @@ TEST(FieldCacheChild, LooksUpTheCache) {
   EXPECT_EQ(field.outcome.warning, "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::field_cache_test

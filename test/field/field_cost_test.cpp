@@ -17,8 +17,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::field_cost_test {
 
 FieldOptions withError(double max_error) {
   FieldOptions options;
@@ -122,5 +121,4 @@ TEST(SpreadOrder, MeetsEachOnceAndAnyFewInARowAreSpread) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::field_cost_test

@@ -20,8 +20,7 @@
 #include "oracle/random.h"
 #include "storage/checked_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::field_file_test {
 
 namespace fs = std::filesystem;
 using test::expectSame;
@@ -234,5 +233,4 @@ TEST_F(FieldFile, NothingStaysOfWhoeverIsKilledWhileWriting) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::field_file_test

@@ -10,8 +10,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::gradient_bound_test {
 
 using test::Random;
 
@@ -91,5 +90,4 @@ TEST_F(GradientBoundTest, IsTightAtAnEdge) {
   EXPECT_LT(ratios[ratios.size() / 2], 2.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::gradient_bound_test

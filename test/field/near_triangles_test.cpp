@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::near_triangles_test {
 
 using test::Random;
 
@@ -98,5 +97,4 @@ TEST_F(NearTrianglesTest, AreExactWhereSolidsCrossAtSmallAngles) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::near_triangles_test

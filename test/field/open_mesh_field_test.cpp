@@ -12,8 +12,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::open_mesh_field_test {
 
 using test::distance;
 using test::Random;
@@ -230,5 +229,4 @@ INSTANTIATE_TEST_SUITE_P(, RealOpenMesh,
                                          "robots/pr2_description/urdf/meshes/gripper_v0/l_finger.stl"),
                          test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::open_mesh_field_test

@@ -4,8 +4,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::shared_samples_test {
 
 /// A number for each point of the grid's lattice.
 std::int16_t valueAt(const Vector3i& brick, const Vector3i& local) {
@@ -47,5 +46,4 @@ TEST(SharedSamples, EachIsComputedOnceAndCopied) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::shared_samples_test

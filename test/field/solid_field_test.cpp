@@ -4,8 +4,7 @@
 #include "oracle/box_union.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::solid_field_test {
 
 using test::boxAt;
 using test::OrientedBox;
@@ -68,5 +67,4 @@ TEST(FieldOfASolid, SignedDistancesOfCrossedBarsAreExact) {
   EXPECT_NEAR(surface.signedDistance({0.2, 0.2, 0}), 0.1, 1e-12);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::solid_field_test

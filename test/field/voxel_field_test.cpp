@@ -5,8 +5,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_field_test {
 
 using namespace test;
 
@@ -103,5 +102,4 @@ TEST(VoxelField, SurfaceIsThatOfTheVoxels) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_field_test

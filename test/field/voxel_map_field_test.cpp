@@ -6,8 +6,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_map_field_test {
 
 using namespace test;
 
@@ -253,5 +252,4 @@ TEST(VoxelMapField, CellsThatNearlyDivideTheVoxelsAreFittedToThem) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_map_field_test

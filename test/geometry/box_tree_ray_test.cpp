@@ -10,8 +10,7 @@
 #include "oracle/winding_number.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::box_tree_ray_test {
 
 using namespace test;
 
@@ -111,5 +110,4 @@ TEST(BoxTreeRay, BallsDoNotCount) {
   EXPECT_EQ(windingNumber(BoxTree(std::move(triangles)), Vector3d(0, 0, 0), all), 0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::box_tree_ray_test

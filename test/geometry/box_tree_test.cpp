@@ -8,8 +8,7 @@
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::box_tree_test {
 
 using test::distance;
 using test::Random;
@@ -231,5 +230,4 @@ TEST(BoxTree, OfALargeMeshIsMadeInNoTimeAndSmall) {
   EXPECT_LT(tree.bytes(), 20000U * 400U);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::box_tree_test

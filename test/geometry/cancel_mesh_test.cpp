@@ -5,8 +5,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cancel_mesh_test {
 
 using namespace test;
 
@@ -55,7 +54,9 @@ void expectClosingEndsSoon(const std::function<TriangleMesh(int triangles)>& mes
 }
 
 /// Its open edges all meet in two points.
-TEST(CancelMesh, ClosingAStarEndsSoon) { expectClosingEndsSoon(starMesh); }
+TEST(CancelMesh, ClosingAStarEndsSoon) {
+  expectClosingEndsSoon(starMesh);
+}
 
 TEST(CancelMesh, ClosingNeedlesEndsSoon) {
   expectClosingEndsSoon([](int triangles) { return needlesMesh(triangles, 0.002); });
@@ -71,5 +72,4 @@ TEST(CancelMesh, TheSolidOfNestedShellsEndsSoon) {
   expectEndsSoon([&] { Solid solid(shells); }, 8, kSoon);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cancel_mesh_test

@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::conforming_mesh_test {
 
 using test::Random;
 
@@ -110,5 +109,4 @@ TEST(ConformingMesh, NoPointMovesFartherThanItIsSaid) {
   EXPECT_GT(joined_meshes, 100);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::conforming_mesh_test

@@ -7,8 +7,7 @@
 
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::generated_mesh_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr Thread kThread{0.02, 0.008, 0.004};
@@ -66,5 +65,4 @@ TEST(GeneratedMesh, ImpossibleSizesAreRefused) {
   EXPECT_THROW(extruded({{0, 0, 0}, {1, 0, 0}}, 1.0), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::generated_mesh_test

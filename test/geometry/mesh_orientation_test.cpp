@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::mesh_orientation_test {
 
 using test::boxMesh;
 using test::boxOfDividedFaces;
@@ -348,5 +347,4 @@ TEST(MeshOrientation, TheAnswerIsTheSameEachTime) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(orientOutward(mesh).mesh.triangles, first.triangles);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::mesh_orientation_test

@@ -10,8 +10,7 @@
 #include "geometry/trees/triangle_tree.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::mesh_quality_test {
 
 using test::boxMesh;
 using test::flipped;
@@ -250,5 +249,4 @@ TEST(MeshQuality, APaneInAFrameIsNotDoubtful) {
   EXPECT_TRUE(quality.sign_trusted);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::mesh_quality_test

@@ -9,8 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::octree_leaves_test {
 
 using Bytes = std::vector<std::int8_t>;
 using Leaves = std::map<std::tuple<int, int, int, int>, bool>;
@@ -107,5 +106,4 @@ TEST(OctreeLeaves, RefusesWhatIsNoTree) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::octree_leaves_test

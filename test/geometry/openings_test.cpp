@@ -8,8 +8,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::openings_test {
 
 using test::distance;
 using test::Random;
@@ -177,5 +176,4 @@ TEST(Openings, ASheetIsCappedByItself) {
   EXPECT_LE(largestReach(openings), 1e-12);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::openings_test

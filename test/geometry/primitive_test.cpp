@@ -9,8 +9,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::primitive_test {
 
 const std::vector<Primitive> kSolids = {Sphere{0.5}, Box{{0.2, 0.3, 0.7}}, Cylinder{0.3, 0.6}, Cylinder{0.6, 0.1}};
 
@@ -98,5 +97,4 @@ TEST(Primitive, BadSizesAreNamed) {
   EXPECT_NO_THROW(validate(Primitive(HalfSpace{{0, 0, -1}, 3})));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::primitive_test

@@ -10,8 +10,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::random_orientation_test {
 
 using test::boxMesh;
 using test::flipped;
@@ -147,5 +146,4 @@ TEST(RandomOrientation, AnyTrianglesOnAGridAreTaken) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::random_orientation_test

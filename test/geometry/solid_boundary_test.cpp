@@ -12,8 +12,7 @@
 #include "oracle/drawn_meshes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::solid_boundary_test {
 
 using test::boxAt;
 using test::OrientedBox;
@@ -297,5 +296,4 @@ TEST(Solid, SidesThatPiecesTellAreRight) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::solid_boundary_test

@@ -6,8 +6,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::triangle_lanes_test {
 
 using test::Random;
 
@@ -70,5 +69,4 @@ TEST(TriangleLanes, NearestOfSeveralIsKept) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::triangle_lanes_test

@@ -8,8 +8,7 @@
 #include "oracle/failure.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::triangle_mesh_test {
 
 TEST(TriangleMesh, ClosedFormsOfABox) {
   const TriangleMesh box = test::translated(test::boxMesh({1, 2, 3}), {100, -200, 300});
@@ -82,5 +81,4 @@ TEST(TriangleMesh, ValidateNamesWhatIsWrong) {
   EXPECT_NE(message(test::boxMesh({1e-10, 1e-10, 1e-10})).find("smaller than 1e-9 m"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::triangle_mesh_test

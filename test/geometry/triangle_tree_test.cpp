@@ -10,8 +10,7 @@
 #include "oracle/shapes.h"
 #include "oracle/winding_number.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::triangle_tree_test {
 
 /// Triangles of every size, needles and specks among them.
 TriangleMesh randomSoup(int count, std::uint64_t seed) {
@@ -321,5 +320,4 @@ TEST(SolidAngleSum, EqualsTheSumOfArcTangents) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::triangle_tree_test

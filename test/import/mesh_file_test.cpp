@@ -10,12 +10,12 @@
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/parameter_name.h"
+#include "oracle/rounds.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::mesh_file_test {
 
 using test::dae;
 using test::failureOf;
@@ -109,7 +109,8 @@ TEST(MeshFile, ErrorsNameTheFileAndTheReason) {
                 .find("unit meter=\"-1\""),
             std::string::npos);
   EXPECT_NE(error(dae(kBox, "", "<node/>"), "a.dae"), "");
-  EXPECT_EQ(failureOf([] { loadMesh("/nonexistent/link.stl"); }), "/nonexistent/link.stl: cannot be opened: No such file or directory");
+  EXPECT_EQ(failureOf([] { loadMesh("/nonexistent/link.stl"); }),
+            "/nonexistent/link.stl: cannot be opened: No such file or directory");
   EXPECT_NE(failureOf([] { loadMesh("/"); }), "");
 
   TriangleMesh bad = kBox;
@@ -190,7 +191,7 @@ TEST(MeshFile, DamagedFilesThrowOrGiveAValidMesh) {
       {dae(kBox, "<unit meter=\"1\"/>", std::string("<node>") + kDaeInstance + "</node>"), "a.dae"}};
   int read = 0, refused = 0;
   for (const auto& [bytes, name] : files) {
-    for (int round = 0; round < 150; ++round) {
+    for (int round = 0; round < test::rounds(150); ++round) {
       std::string damaged = bytes.substr(0, round % 3 == 0 ? random() % bytes.size() : bytes.size());
       for (std::size_t hit = 0; hit < random() % 4 && !damaged.empty(); ++hit) {
         damaged[random() % damaged.size()] = static_cast<char>(random());
@@ -204,8 +205,8 @@ TEST(MeshFile, DamagedFilesThrowOrGiveAValidMesh) {
       }
     }
   }
-  EXPECT_GT(read, 100);
-  EXPECT_GT(refused, 100);
+  EXPECT_GT(read, test::rounds(100));
+  EXPECT_GT(refused, test::rounds(100));
 }
 
 TEST(MeshFile, HostileFilesAreRefusedAndTheirNeighbourIsRead) {
@@ -250,5 +251,4 @@ INSTANTIATE_TEST_SUITE_P(
                                 0.113}),
     test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::mesh_file_test

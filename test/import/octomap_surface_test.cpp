@@ -10,8 +10,7 @@
 #include "oracle/files.h"
 #include "oracle/test_data.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::octomap_surface_test {
 
 /// Whether every directed edge occurs as often as its opposite, as in a closed surface.
 bool edgesBalance(const TriangleMesh& mesh) {
@@ -176,5 +175,4 @@ TEST_F(OctomapFile, RealMapOf2010) {
   EXPECT_TRUE(edgesBalance(mesh));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::octomap_surface_test

@@ -18,8 +18,7 @@
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::read_apart_test {
 
 using Clock = std::chrono::steady_clock;
 
@@ -273,5 +272,4 @@ TEST_F(ReadApart, ComputingIsBounded) {
   EXPECT_LT(secondsSince(start), 60.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::read_apart_test

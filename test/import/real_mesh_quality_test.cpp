@@ -7,8 +7,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::real_mesh_quality_test {
 
 struct Expected {
   const char* name;
@@ -46,5 +45,4 @@ INSTANTIATE_TEST_SUITE_P(
                                true, 1.38e-4}),
     test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::real_mesh_quality_test

@@ -6,8 +6,7 @@
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::real_openings_test {
 
 class RealOpenings : public testing::TestWithParam<const char*> {};
 
@@ -30,5 +29,4 @@ INSTANTIATE_TEST_SUITE_P(, RealOpenings,
                                          "robots/pr2_description/urdf/meshes/head_v0/head_tilt.stl"),
                          test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::real_openings_test

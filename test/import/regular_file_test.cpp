@@ -11,8 +11,7 @@
 #include "oracle/failure.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::regular_file_test {
 
 using test::failureOf;
 using RegularFile = test::FakeReader;
@@ -58,5 +57,4 @@ TEST_F(RegularFile, SizeIsBounded) {
   EXPECT_EQ(failureOf([&] { loadMesh(sparse); }), sparse + ": larger than 1024 MiB");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::regular_file_test

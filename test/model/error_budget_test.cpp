@@ -5,8 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::error_budget_test {
 
 TEST(ErrorBudget, SharesFillTheBudgetButForOnePercent) {
   for (const double error : {1e-5, 1e-3, 0.1}) {
@@ -31,5 +30,4 @@ TEST(ErrorBudget, WhatCannotBeKeptIsRefused) {
     EXPECT_THROW(divideErrorBudget(error), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::error_budget_test

@@ -4,8 +4,7 @@
 
 #include <random>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::pair_rules_test {
 
 TEST(NamePattern, StarsAndQuestionMarks) {
   EXPECT_TRUE(matches("hand", "hand"));
@@ -95,5 +94,4 @@ TEST(PairRules, NamesThatNobodyHasAreTold) {
   EXPECT_TRUE(scene.allowed.empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::pair_rules_test

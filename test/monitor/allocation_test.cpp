@@ -4,8 +4,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::allocation_test {
 
 using namespace test;
 
@@ -139,5 +138,4 @@ TEST(Allocation, NoneWhileAChangeIsTakenOver) {
   EXPECT_LT(run(), 40) << "what was known is not known any more";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::allocation_test

@@ -10,8 +10,7 @@
 #include "oracle/files.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::build_scene_test {
 
 using namespace test;
 
@@ -80,8 +79,8 @@ TEST(BuildScene, AFieldThatIsLargerThanAllowedIsRejected) {
       options.field.cell_size = 0.0005;
     }
     options.field.max_bytes = 20 << 10;
-    const auto scene = build({body("ball", meshShape(icosphere(0.1, 3))), body("other", meshShape(icosphere(0.12, 3)))},
-                             options);
+    const auto scene =
+        build({body("ball", meshShape(icosphere(0.1, 3))), body("other", meshShape(icosphere(0.12, 3)))}, options);
     EXPECT_EQ(scene->bodies[0].failure.find("MB allowed") != std::string::npos, is_set) << scene->bodies[0].failure;
     EXPECT_EQ(scene->reports[0].warnings.empty(), is_set);
   }
@@ -122,7 +121,8 @@ TEST(BuildScene, OneBodysFailureIsItsOwn) {
 
 /// Neither other pairs' delays, a reset nor another scene makes a pair of it anything else, and it costs no test.
 TEST(BuildScene, PairsOfABodyThatFailedAreNeverDue) {
-  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("broken", meshShape({})), body("b", Primitive(Sphere{0.1}))});
+  const auto scene =
+      build({body("a", Primitive(Sphere{0.1})), body("broken", meshShape({})), body("b", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, {});
   CycleMotion motion = cycle(0.1, {still(translation({0, 0, 0})), {}, still(translation({1, 0, 0}))});
   const auto expectNotChecked = [&](const CycleMotion& with, int checked, int skipped, int delayed) {
@@ -265,5 +265,4 @@ TEST(PlanTable, GroupsWhatWasLeftOutByReason) {
   EXPECT_TRUE(std::all_of(table.begin(), table.end(), [](unsigned char c) { return c < 0x80; })) << table;
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::build_scene_test

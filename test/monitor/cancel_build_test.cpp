@@ -4,8 +4,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cancel_build_test {
 
 using namespace test;
 /// A body of two overlapping tori with many triangles, and an open mesh.
@@ -44,5 +43,4 @@ TEST(CancelBuild, EndsSoonAtAnyMomentUnderMaxError) {
   expectBuildEndsSoon(options);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cancel_build_test

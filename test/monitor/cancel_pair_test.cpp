@@ -6,8 +6,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cancel_pair_test {
 
 using namespace test;
 constexpr int kMoments = 6;
@@ -99,5 +98,4 @@ TEST(CancelPair, DoesNotEndACycleThatOnlyMeasures) {
   EXPECT_EQ(cyclesBefore(true, {}), until_due);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cancel_pair_test

@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::clearance_skip_test {
 
 using namespace test;
 
@@ -141,5 +140,4 @@ TEST(ClearanceSkip, LookingCloserIsPaidForOnlyWhenNear) {
   EXPECT_EQ(at(0.09, 0.09).verdict, Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::clearance_skip_test

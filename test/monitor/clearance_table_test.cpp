@@ -9,8 +9,7 @@
 #include "oracle/long_screw.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::clearance_table_test {
 
 using namespace test;
 
@@ -290,5 +289,4 @@ TEST(ClearanceTable, WhatIsOverdrawnBecomesNoLess) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::clearance_table_test

@@ -6,8 +6,7 @@
 #include "oracle/drawn_meshes.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::contact_refinement_test {
 
 using namespace test;
 
@@ -35,8 +34,7 @@ constexpr double kHalf = 0.05, kTop = 0.02;  // half sizes of a cube, and of the
 
 /// Pose of a cube with a corner pointing down; kCorner is the distance of that corner from its centre [m].
 Isometry3d onCorner() {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1));
-  return Isometry3d(turn);
+  return pose(Vector3d::Zero(), std::acos(1.0 / std::sqrt(3.0)), {1, -1, 0});
 }
 const double kCorner = std::sqrt(3.0) * kHalf;
 
@@ -306,5 +304,4 @@ TEST(ContactRefinement, BoundsOnlyTheContactWithTheDeepestPoint) {
   EXPECT_NEAR(tracker[1].deepest.depth, 0.0192, 2e-3);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::contact_refinement_test

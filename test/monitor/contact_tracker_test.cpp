@@ -9,8 +9,7 @@
 #include "monitor/tracker_case.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::contact_tracker_test {
 
 using namespace test;
 
@@ -308,5 +307,4 @@ TEST_F(TrackerTest, AnyRunSaysWhatAllIntervalsTogetherSay) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::contact_tracker_test

@@ -9,8 +9,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::containment_test {
 
 using namespace test;
 
@@ -171,5 +170,4 @@ TEST(Containment, WhatPassesThroughACrackIsNotedOnBothWays) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::containment_test

@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::crossing_intervals_test {
 
 using namespace test;
 
@@ -247,5 +246,4 @@ TEST(HiddenCrossing, ThatIsTheFirstTouchHasAPlace) {
   EXPECT_GT(contacts, 20);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::crossing_intervals_test

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_safety_test {
 
 CycleResult resultWith(Verdict verdict) {
   CycleResult result;
@@ -137,5 +136,4 @@ TEST_F(CycleSafetyTest, TextsSayWhatHolds) {
   EXPECT_NE(promiseText(promise).find("if each joint keeps to the scale times its limit of speed"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_safety_test

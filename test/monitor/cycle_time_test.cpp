@@ -8,8 +8,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_time_test {
 
 using namespace test;
 
@@ -331,5 +330,4 @@ TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
   EXPECT_EQ(verdictOf(monitor.run(motionOf(0.0, 0.0), {})), Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_time_test

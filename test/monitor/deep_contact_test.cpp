@@ -5,8 +5,7 @@
 #include "monitor/join_results.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::deep_contact_test {
 
 using namespace test;
 
@@ -52,5 +51,4 @@ TEST(Monitor, DepthsBeyondTheBandHaveAnErrorThatHolds) {
   EXPECT_GT(deeper, 0) << "the field tells them all";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::deep_contact_test

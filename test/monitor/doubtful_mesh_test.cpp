@@ -11,8 +11,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::doubtful_mesh_test {
 
 using test::boxMesh;
 using test::flipped;
@@ -242,5 +241,4 @@ TEST(DoubtfulMesh, WhatIsInsideIsNeverClearWhateverItIs) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::doubtful_mesh_test

@@ -7,8 +7,7 @@
 #include "monitor/pair_distances.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::half_space_limits_test {
 
 using namespace test;
 
@@ -165,5 +164,4 @@ TEST(HalfSpaceLimits, DistancesAreOfTheEnd) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::half_space_limits_test

@@ -7,8 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::half_space_test {
 
 using namespace test;
 
@@ -270,5 +269,4 @@ TEST(HalfSpacePair, CostsNothing) {
   for (int i = 0; i < 2; ++i) EXPECT_EQ(above->bodies[i].shell->size(), alone->bodies[i].shell->size());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::half_space_test

@@ -4,8 +4,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::join_results_test {
 
 using namespace test;
 
@@ -103,7 +102,7 @@ BodyOptions exactDepths() {
 constexpr double kHalf = 0.05;
 const double kCorner = std::sqrt(3.0) * kHalf, kEdge = std::sqrt(2.0) * kHalf;
 Isometry3d onCorner() {
-  return Isometry3d(Eigen::Quaterniond::FromTwoVectors(Vector3d(-1, -1, -1), Vector3d(0, 0, -1)));
+  return pose(Vector3d::Zero(), std::acos(1.0 / std::sqrt(3.0)), {1, -1, 0});
 }
 
 CycleRequest refined() {
@@ -170,5 +169,4 @@ TEST(ResultJoiner, WhatOnePieceDoesNotKnowTheWholeDoesNotKnow) {
   EXPECT_EQ(joiner.result().pairs[0].reason, "nobody knows");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::join_results_test

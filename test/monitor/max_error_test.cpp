@@ -12,8 +12,7 @@
 #include "oracle/scene_case.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::max_error_test {
 
 using namespace test;
 
@@ -239,5 +238,4 @@ TEST(MaxError, CostOfPrimitivesIsExpectedAlsoWhereItIsLarge) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::max_error_test

@@ -12,8 +12,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::monitor_test {
 
 using namespace test;
 
@@ -394,5 +393,4 @@ TEST(Monitor, RefusesMotionsThatDoNotFit) {
   EXPECT_THROW(Monitor(scene, options), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::monitor_test

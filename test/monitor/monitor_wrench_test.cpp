@@ -5,8 +5,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::monitor_wrench_test {
 
 using namespace test;
 
@@ -269,5 +268,4 @@ TEST(MonitorWrench, DoesNotJumpWhereShellsCeaseToCountAlike) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::monitor_wrench_test

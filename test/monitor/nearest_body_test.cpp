@@ -8,8 +8,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::nearest_body_test {
 
 using namespace test;
 
@@ -173,5 +172,4 @@ TEST(NearestBody, MeshesArePreparedOnce) {
   for (int i = 1; i < 20; ++i) secondsToPrepare({{body("ball", meshShape(icosphere(0.1 * i, 2)))}, {}});
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::nearest_body_test

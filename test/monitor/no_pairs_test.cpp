@@ -4,8 +4,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::no_pairs_test {
 
 using namespace test;
 
@@ -28,5 +27,4 @@ TEST(NoPairs, AreToldWithTheReason) {
       << planTable(scene);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::no_pairs_test

@@ -2,14 +2,14 @@
 
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
+#include "oracle/rounds.h"
 #include "oracle/scene_case.h"
 #include "oracle/triangle_distance.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 /// Searches for motions of open meshes with the verdict CONTACT although their triangles never meet, or CLEAR although
 /// they do.
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::open_mesh_attack_test {
 
 using test::Random;
 
@@ -88,7 +88,7 @@ Least leastDistance(const Case& made, const Path& path, int steps) {
 TEST(OpenMeshAttack, ContactsAreCrossingsAndWhatIsClearIsFree) {
   Random random(1);
   int count[4] = {};
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < test::rounds(10); ++i) {
     const Case made = makeCase(random);
     Monitor monitor(made.scene, {});
     for (int k = 0; k < 12; ++k) {
@@ -103,8 +103,8 @@ TEST(OpenMeshAttack, ContactsAreCrossingsAndWhatIsClearIsFree) {
       ASSERT_FALSE(verdict == Verdict::kClear && least.high < 1e-6) << "case " << i << ", path " << k;
     }
   }
-  EXPECT_GT(count[static_cast<int>(Verdict::kClear)], 10);
-  EXPECT_GT(count[static_cast<int>(Verdict::kContact)], 20);
+  EXPECT_GT(count[static_cast<int>(Verdict::kClear)], test::rounds(10));
+  EXPECT_GT(count[static_cast<int>(Verdict::kContact)], test::rounds(20));
 }
 
 /// Climbs: keeps a change of the path if the verdict stays and the true distance moves away from it.
@@ -112,7 +112,7 @@ TEST(OpenMeshAttack, ClimbingFindsNoFalseVerdict) {
   Random random(2);
   for (const Verdict wanted : {Verdict::kContact, Verdict::kClear}) {
     const double sign = wanted == Verdict::kContact ? 1.0 : -1.0;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < test::rounds(10); ++i) {
       const Case made = makeCase(random);
       Monitor monitor(made.scene, {});
       double best = -1e9;
@@ -151,5 +151,4 @@ TEST(OpenMeshAttack, ADiscOfHardlyAnyThickness) {
   EXPECT_EQ(verdictAt({0, 0, 0}), Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::open_mesh_attack_test

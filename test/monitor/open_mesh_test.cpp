@@ -4,8 +4,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::open_mesh_test {
 
 using test::translation;
 
@@ -139,5 +138,4 @@ TEST(OpenMesh, ShellsHaveNoPointsOnCaps) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::open_mesh_test

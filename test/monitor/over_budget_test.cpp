@@ -4,8 +4,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::over_budget_test {
 
 using namespace test;
 
@@ -56,5 +55,4 @@ TEST(OverBudget, NamesWhatWasMadeCoarser) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::over_budget_test

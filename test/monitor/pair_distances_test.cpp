@@ -9,8 +9,7 @@
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::pair_distances_test {
 
 using test::Random;
 using test::Real;
@@ -375,5 +374,4 @@ TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
   EXPECT_TRUE(other.update(motion, result_, kRange, {}).empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::pair_distances_test

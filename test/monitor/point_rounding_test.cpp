@@ -6,8 +6,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/monitor.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::point_rounding_test {
 
 using namespace test;
 
@@ -48,5 +47,4 @@ TEST(PointRounding, ProvesNoContactAndHidesNone) {
   EXPECT_GT(rounded_inside, 20);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::point_rounding_test

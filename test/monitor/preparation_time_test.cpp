@@ -11,8 +11,7 @@
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::preparation_time_test {
 
 using namespace test;
 
@@ -108,5 +107,4 @@ TEST(PreparationTime, WithinTheLimitNothingChanges) {
   EXPECT_EQ(timed->bodies[0].parts[0].field.cells(), free->bodies[0].parts[0].field.cells());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::preparation_time_test

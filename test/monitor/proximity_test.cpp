@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::proximity_test {
 
 TEST(Proximity, RisesAtOnceAndFallsBehindTheHysteresis) {
   ProximityWatch watch;
@@ -30,5 +29,4 @@ TEST(Proximity, ALevelThatIsNotWatchedIsNeverReached) {
   EXPECT_EQ(watch.update(kNever, kNever, 0.01), Proximity::kFree);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::proximity_test

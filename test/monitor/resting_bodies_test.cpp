@@ -10,8 +10,7 @@
 
 // Pairs of moving bodies with groups of bodies that rest.
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::resting_bodies_test {
 
 using namespace test;
 
@@ -246,5 +245,4 @@ TEST(RestingBodies, TheErrorIsThatOfAPair) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::resting_bodies_test

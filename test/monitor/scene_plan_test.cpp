@@ -7,8 +7,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::scene_plan_test {
 
 using namespace test;
 
@@ -199,5 +198,4 @@ TEST(ScenePlan, TableKeepsAnyNameOfALinkThatIsLeftOut) {
   EXPECT_NE(table.find("  2 shells, no pair needs it: of lid, base\n"), std::string::npos) << table;
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::scene_plan_test

@@ -7,8 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::schedule_test {
 
 using namespace test;
 
@@ -194,5 +193,4 @@ TEST(Schedule, KeepsWhatItKnowsUntilItIsReset) {
   EXPECT_FALSE(monitor.run(at(1.0), {}).pairs[0].skipped);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::schedule_test

@@ -3,8 +3,7 @@
 #include "oracle/scene_case.h"
 
 /// Bodies of several parts for which no shell can be made: a part wholly inside another body must be detected.
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::several_parts_test {
 
 using namespace test;
 
@@ -101,5 +100,4 @@ TEST(SeveralParts, ATipThatDoesNotReachIntoACorner) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::several_parts_test

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::summarise_test {
 
 TEST(Summarise, ListsPairsThatAreNeitherClearNorDelayed) {
   CycleResult result;
@@ -41,5 +40,4 @@ TEST(Summarise, WhatIsUncheckedIsNotClear) {
   EXPECT_EQ(result.verdict, Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::summarise_test

@@ -8,8 +8,7 @@
 #include "oracle/random.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::surface_pair_test {
 
 using namespace test;
 
@@ -310,5 +309,4 @@ TEST(SurfacePair, WhatRoundingCannotTellEnds) {
   EXPECT_NE(verdict, Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::surface_pair_test

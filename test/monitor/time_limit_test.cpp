@@ -12,8 +12,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::time_limit_test {
 
 using namespace test;
 
@@ -163,5 +162,4 @@ TEST(TimeLimit, AContactThatIsIncompleteForACycleIsTheSameContact) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::time_limit_test

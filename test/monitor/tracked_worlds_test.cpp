@@ -6,8 +6,7 @@
 
 #include "monitor/tracker_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tracked_worlds_test {
 
 using namespace test;
 
@@ -113,5 +112,4 @@ TEST_F(TrackerTest, WhatIsOnlyCalledLikeAMapOrItsTileIsItself) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tracked_worlds_test

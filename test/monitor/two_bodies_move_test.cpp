@@ -2,8 +2,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::two_bodies_move_test {
 
 using namespace test;
 
@@ -192,5 +191,4 @@ TEST(DelayedPairs, ACycleWithThemIsNotClearAsAWhole) {
   EXPECT_EQ(monitor.run(motion, {}).verdict, Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::two_bodies_move_test

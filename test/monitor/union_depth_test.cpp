@@ -11,8 +11,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/nearest_body.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::union_depth_test {
 
 using namespace test;
 
@@ -58,13 +57,16 @@ void expectErrorsCoverTheUnion(const std::vector<OrientedBox>& boxes, As as, boo
     const NearestBody nearest = search.nearest({X_WB, Isometry3d::Identity()}, X_WB * p);
     ASSERT_LE(std::abs(nearest.distance - truth), nearest.error + 1e-9)
         << p.transpose() << ": " << nearest.distance << " +- " << nearest.error << ", true " << truth;
-    if (truth > 0.0 && as == As::kPrimitives) EXPECT_LT(nearest.error, 1e-9);  // outside nothing changes
+    if (truth > 0.0 && as == As::kPrimitives) {
+      EXPECT_LT(nearest.error, 1e-9);  // outside nothing changes
+    }
     inside += truth < -1e-3;
     exact += truth < -1e-3 && nearest.error < 1e-9;
   }
   EXPECT_GT(inside, 50);
-  if (as == As::kPrimitives)
+  if (as == As::kPrimitives) {
     EXPECT_GT(exact, inside / 20);  // away from the faces where parts meet the error is a part's
+  }
 }
 
 TEST(UnionDepth, ErrorsOfPointsCoverTwoCubes) {
@@ -162,5 +164,4 @@ TEST(UnionDepth, PartsApartHaveTheErrorsOfOne) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::union_depth_test

@@ -8,8 +8,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::untestable_pairs_test {
 
 using namespace test;
 
@@ -41,9 +40,9 @@ class UntestablePairs : public ::testing::TestWithParam<std::string> {
 
   const SceneDescription description_{{cube("load", false), body("arm", Primitive(Sphere{0.05})), obstacle()}, {}};
   /// The load ends deep inside the obstacle; the arm stays far above.
-  const CycleMotion motion_ =
-      cycle(1.0, {{translation({0, 0, 1}), Isometry3d::Identity()}, still(translation({0, 0, 2})),
-                  still(Isometry3d::Identity())});
+  const CycleMotion motion_ = cycle(
+      1.0,
+      {{translation({0, 0, 1}), Isometry3d::Identity()}, still(translation({0, 0, 2})), still(Isometry3d::Identity())});
 };
 
 TEST_P(UntestablePairs, AreNotCheckedAndNamed) {
@@ -135,15 +134,13 @@ TEST(UntestablePairs, OfBodiesThatAreGivenPreparedAreNotChecked) {
   const Scene scene = makeScene({halfSpace("floor"), halfSpace("hand"), prepareBody("ball", Sphere{0.1}, {5e-3, {}})});
   ASSERT_EQ(scene.pairs.size(), 3U);
   EXPECT_EQ(scene.warnings.size(), 1U);
-  const CycleResult result =
-      Monitor(std::make_shared<const Scene>(scene), {})
-          .run(cycle(1.0, {still(Isometry3d::Identity()), still(translation({0, 0, -9})),
-                           still(translation({0, 0, 1}))}),
-               {});
+  const CycleResult result = Monitor(std::make_shared<const Scene>(scene), {})
+                                 .run(cycle(1.0, {still(Isometry3d::Identity()), still(translation({0, 0, -9})),
+                                                  still(translation({0, 0, 1}))}),
+                                      {});
   EXPECT_EQ(result.verdict, Verdict::kNotChecked);
   EXPECT_EQ(result.pairs[0].reason, kNotTestable);
   EXPECT_EQ(result.pairs[1].verdict, Verdict::kClear);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::untestable_pairs_test

@@ -10,8 +10,7 @@
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::velocity_scale_test {
 
 using test::direction;
 using test::Random;
@@ -392,5 +391,4 @@ TEST(VelocityScale, ABodyThatObeysNeverTouchesAnyOther) {
   EXPECT_LT(nearest, 0.05);  // it comes near nevertheless
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::velocity_scale_test

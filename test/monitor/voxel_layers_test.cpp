@@ -6,8 +6,7 @@
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_layers_test {
 
 using namespace test;
 
@@ -27,9 +26,7 @@ struct Thing {
   std::uint64_t declared = 1;
   bool is_attached = false, is_at_stamp = true, is_known = true;
 
-  bool contains(const Voxel& v) const {
-    return box.exteriorDistance(centerOf(v)) <= 0.5 * std::sqrt(3.0) * kSize;
-  }
+  bool contains(const Voxel& v) const { return box.exteriorDistance(centerOf(v)) <= 0.5 * std::sqrt(3.0) * kSize; }
   ObjectMask mask() const {
     ObjectMask mask;
     mask.name = name;
@@ -183,5 +180,4 @@ TEST(VoxelLayers, EqualTheRulesVoxelByVoxel) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_layers_test

@@ -13,8 +13,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_map_test {
 
 using namespace test;
 
@@ -257,5 +256,4 @@ TEST(VoxelMap, ARealMapIsAWorld) {
   EXPECT_EQ(monitor.run(motion, {}).verdict, Verdict::kContact);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_map_test

@@ -12,8 +12,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_mask_test {
 
 using namespace test;
 
@@ -180,5 +179,4 @@ TEST(VoxelMask, UnknownSpaceFarFromABodyIsNotNearIt) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_mask_test

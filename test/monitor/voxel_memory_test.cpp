@@ -9,8 +9,7 @@
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_memory_test {
 
 using namespace test;
 
@@ -255,5 +254,4 @@ TEST(VoxelMemory, EqualsTheRuleVoxelByVoxel) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_memory_test

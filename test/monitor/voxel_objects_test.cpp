@@ -9,8 +9,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_objects_test {
 
 using namespace test;
 
@@ -277,5 +276,4 @@ TEST(VoxelObjects, TheMasksOfBodiesAreCertain) {
   EXPECT_EQ(map.judged(), 48U) << "three layers: the centres of the third are half a voxel above the floor";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_objects_test

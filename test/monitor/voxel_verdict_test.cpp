@@ -6,8 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_verdict_test {
 
 using namespace test;
 
@@ -151,5 +150,4 @@ TEST(VoxelVerdict, ABallInsideASingleVoxelIsContactAllTheTime) {
       }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_verdict_test

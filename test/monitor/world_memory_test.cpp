@@ -10,8 +10,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::world_memory_test {
 
 using namespace test;
 
@@ -37,8 +36,8 @@ TEST(WorldMemory, OfObjectsThatAreGoneIsLimitedByTheirBytes) {
   WorldEditor editor(fine(0.02));
   std::vector<std::weak_ptr<const BodySurface>> made;
   for (unsigned i = 0; i < 16; ++i) {
-    const SceneDescription world{{body("ball", meshShape(icosphere(0.1, 2))), body("sheet", meshShape(roughSheet(i)), true)},
-                                 {}};
+    const SceneDescription world{
+        {body("ball", meshShape(icosphere(0.1, 2))), body("sheet", meshShape(roughSheet(i)), true)}, {}};
     made.push_back(editor.next(world)->scene->bodies[1].surface);
     ASSERT_FALSE(made.back().expired());
   }
@@ -54,5 +53,4 @@ TEST(WorldMemory, OfObjectsThatAreGoneIsLimitedByTheirBytes) {
   EXPECT_LT(kept, made.size());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::world_memory_test

@@ -11,8 +11,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::world_test {
 
 using namespace test;
 
@@ -424,5 +423,4 @@ TEST(World, AMonitorRefusesAChangeOfAnotherScene) {
   EXPECT_EQ(&monitor.scene(), second->scene.get());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::world_test

@@ -4,8 +4,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::chain_derivatives_test {
 
 using test::Random;
 using test::uniform;
@@ -49,5 +48,4 @@ TEST(CarriedDerivatives, AreThoseOfTheChainFromItsOtherEnd) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::chain_derivatives_test

@@ -4,8 +4,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::chords_test {
 
 using test::Random;
 
@@ -184,5 +183,4 @@ TEST(Chords, RefusesBadTimes) {
   EXPECT_THROW(cutIntoChords({{0.0, 1.0}, {X, X}}, {}, {0.0, 10}, path), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::chords_test

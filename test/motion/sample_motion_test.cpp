@@ -7,8 +7,7 @@
 
 #include "motion/chain_derivatives.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::sample_motion_test {
 
 using Eigen::AngleAxisd;
 
@@ -133,5 +132,4 @@ TEST(SampleMotion, AShorterMotionReusesTheMemoryOfALongerOne) {
   EXPECT_EQ(motion.X_WB[0].size(), 2u);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::sample_motion_test

@@ -13,8 +13,7 @@
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::two_body_motion_test {
 
 using test::Random;
 
@@ -271,5 +270,4 @@ TEST(TwoBodyMotion, PosesAreOffByNoMoreThanTheirRounding) {
   EXPECT_GT(worst, 0.01);  // the margin is not a guess
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::two_body_motion_test

@@ -7,8 +7,7 @@
 
 #include "oracle/failure.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::validate_motion_test {
 
 CycleMotion motionOfTwo() {
   CycleMotion motion;
@@ -77,5 +76,4 @@ TEST(ValidateMotion, SaysWhatDoesNotFit) {
   EXPECT_NE(refusal(motion), "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::validate_motion_test

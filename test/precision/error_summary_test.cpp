@@ -4,8 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd::precision {
-namespace {
+namespace sdf_ccd::precision::error_summary_test {
 
 TEST(ErrorSummary, OfOneHundredNumbers) {
   std::vector<double> values;
@@ -37,5 +36,4 @@ TEST(ErrorSummary, QuantilesAreValuesThatWereThere) {
   EXPECT_EQ(quantile(values, 1.0), 4.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd::precision
+}  // namespace sdf_ccd::precision::error_summary_test

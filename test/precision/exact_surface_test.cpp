@@ -7,8 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd::precision {
-namespace {
+namespace sdf_ccd::precision::exact_surface_test {
 
 TEST(ExactSurface, SegmentsMeetABoxWhereItsFacesAre) {
   const Vector3d half(0.3, 0.2, 0.1);
@@ -61,5 +60,4 @@ TEST(ExactSurface, MissesWhatItDoesNotReach) {
   EXPECT_NEAR(box.distance({0.1, 0.0, 0.0}), -0.1, 1e-15);
 }
 
-}  // namespace
-}  // namespace sdf_ccd::precision
+}  // namespace sdf_ccd::precision::exact_surface_test

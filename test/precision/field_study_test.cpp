@@ -5,8 +5,7 @@
 #include "oracle/shapes.h"
 #include "precision/studies.h"
 
-namespace sdf_ccd::precision {
-namespace {
+namespace sdf_ccd::precision::field_study_test {
 
 /// Queries in batches are the single ones, many at once: their errors are the same up to single precision.
 TEST(FieldStudy, BatchesFindTheSameHits) {
@@ -30,5 +29,4 @@ TEST(FieldStudy, BatchesFindTheSameHits) {
   EXPECT_GT(compared, 1);
 }
 
-}  // namespace
-}  // namespace sdf_ccd::precision
+}  // namespace sdf_ccd::precision::field_study_test

@@ -4,8 +4,7 @@
 
 #include "precision/gnuplot.h"
 
-namespace sdf_ccd::precision {
-namespace {
+namespace sdf_ccd::precision::gnuplot_test {
 
 TEST(Gnuplot, ScriptIsWrittenToTmpdir) {
   if (!haveGnuplot()) GTEST_SKIP() << "gnuplot is not installed";
@@ -15,5 +14,4 @@ TEST(Gnuplot, ScriptIsWrittenToTmpdir) {
   ::unsetenv("TMPDIR");
 }
 
-}  // namespace
-}  // namespace sdf_ccd::precision
+}  // namespace sdf_ccd::precision::gnuplot_test

@@ -2,8 +2,7 @@
 
 #include "precision/report.h"
 
-namespace sdf_ccd::precision {
-namespace {
+namespace sdf_ccd::precision::plot_test {
 
 Measurement point(const std::string& system, const std::string& setting, double seconds, double error) {
   Measurement row;
@@ -33,5 +32,4 @@ TEST(Plot, NamesOfSettingsDoNotCoverEachOther) {
   EXPECT_NE(script.find("1.02 0.001 0.002 0.003 \"\""), std::string::npos) << script;
 }
 
-}  // namespace
-}  // namespace sdf_ccd::precision
+}  // namespace sdf_ccd::precision::plot_test

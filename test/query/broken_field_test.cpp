@@ -2,10 +2,10 @@
 
 #include "field/field_file_case.h"
 #include "oracle/mended_file.h"
+#include "oracle/rounds.h"
 #include "sdf_ccd/query/segment_query.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::broken_field_test {
 
 using BrokenField = test::FieldFileCase;
 
@@ -37,7 +37,7 @@ TEST_F(BrokenField, NoNumbersBreakQueries) {
     saveField(buildField(test::binMesh(0.3), options), path("a.field"));
     const test::EditedFile good(path("a.field"), options.max_error ? "adaptive field" : "field", test::kFieldVersion);
     test::Random random(3);
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < test::rounds(1500); ++i) {
       good.write(path("b.field"), [&](auto& sections) { test::breakNumbers(random, sections); });
       try {
         expectNumbers(loadField(path("b.field")), random);
@@ -48,9 +48,8 @@ TEST_F(BrokenField, NoNumbersBreakQueries) {
       }
     }
   }
-  EXPECT_GT(refused, 500);
-  EXPECT_GT(queried, 500);
+  EXPECT_GT(refused, test::rounds(500));
+  EXPECT_GT(queried, test::rounds(500));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::broken_field_test

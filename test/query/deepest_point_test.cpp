@@ -8,12 +8,12 @@
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
+#include "oracle/rounds.h"
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::deepest_point_test {
 
 using test::LongScrew;
 using test::Random;
@@ -95,7 +95,7 @@ TEST(PartDepth, HasTheSideThatTheWindingNumberTells) {
     ASSERT_TRUE(solid.solid.closed());
     const MeshTruth truth(solid.solid.boundary());
     int sides[2] = {};
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < test::rounds(1000); ++i) {
       const Corners corners =
           cornersOf(solid.solid.boundary(), int(random() % solid.solid.boundary().triangles.size()));
       double u = test::uniform(random, 0.0, 1.0), v = test::uniform(random, 0.0, 1.0);
@@ -109,7 +109,7 @@ TEST(PartDepth, HasTheSideThatTheWindingNumberTells) {
       ASSERT_NEAR(double(depth), found.depth, 1e-9) << i;
       ++sides[depth > 0.0L];
     }
-    EXPECT_GT(std::min(sides[0], sides[1]), 250);
+    EXPECT_GT(std::min(sides[0], sides[1]), test::rounds(250));
   }
 }
 
@@ -189,7 +189,7 @@ TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
     const MeshTruth truth(*inside);
     for (const TriangleMesh* surface : meshes) {
       const BoxTree tree = treeOf(*surface);
-      for (int i = 0; i < 12; ++i) {
+      for (int i = 0; i < test::rounds(15); ++i) {
         const double scale = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.02 : 1.0;  // at rest, as in a cycle, as in a plan
         const Isometry3d X_WF = test::pose(random, 1.0, 1.0), X_FP = test::pose(random, 2.0, 0.07);
         const ScrewMotion f(X_WF, X_WF * test::pose(random, 1.5 * scale, 0.03 * scale));
@@ -216,7 +216,7 @@ TEST(DeepestPoint, NoPlaceIsDeeperAndItsOwnDepthIsExact) {
       }
     }
   }
-  EXPECT_GT(deep, 60);
+  EXPECT_GT(deep, test::rounds(75));
 }
 
 TEST(DeepestPoint, OfABallIsWhereItFacesIn) {
@@ -286,5 +286,4 @@ TEST(DeepestPoint, WhatIsLeftWithoutTimeIsInTheError) {
   EXPECT_LE(last, 1e-5);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::deepest_point_test

@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::impact_window_test {
 
 using test::Random;
 
@@ -91,5 +90,4 @@ TEST(ImpactWindow, OfAPointThatRestsInsideIsItsStart) {
   EXPECT_EQ(*window->latest, 0.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::impact_window_test

@@ -11,8 +11,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::least_distance_test {
 
 using test::Random;
 
@@ -188,5 +187,4 @@ TEST(LeastDistance, RefusesSegmentsOutOfReach) {
   EXPECT_THROW(leastDistance(field, {Vector3d::Zero(), Vector3d(2e12, 0.0, 0.0)}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::least_distance_test

@@ -10,8 +10,7 @@
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::plane_separation_test {
 
 using test::LongPose;
 using test::LongScrew;
@@ -213,5 +212,4 @@ TEST(PlaneSeparation, EndsAtItsLimit) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::plane_separation_test

@@ -6,8 +6,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::primitive_spheres_test {
 
 using test::Random;
 using Real = long double;
@@ -82,5 +81,4 @@ TEST(PrimitiveSpheres, SidesHoldWithinRounding) {
   EXPECT_GT(outside, 15000);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::primitive_spheres_test

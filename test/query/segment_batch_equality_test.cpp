@@ -16,8 +16,7 @@
 #include "oracle/sampled_function.h"
 #include "query/batch_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::segment_batch_equality_test {
 
 using namespace test;
 
@@ -260,5 +259,4 @@ TEST(SegmentBatch, EqualsSingleQueriesOnEveryKindOfProcessor) {
 }
 #endif
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::segment_batch_equality_test

@@ -6,8 +6,7 @@
 #include "oracle/failure.h"
 #include "query/batch_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::segment_batch_test {
 
 using namespace test;
 
@@ -132,5 +131,4 @@ TEST(SegmentBatch, NamesTheSegmentThatItRefuses) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::segment_batch_test

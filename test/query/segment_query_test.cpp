@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::segment_query_test {
 
 using test::Random;
 using test::randomSegment;
@@ -313,5 +312,4 @@ TEST(SegmentQuery, NothingIsCrossedWhereFacesOfASolidLieInside) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::segment_query_test

@@ -10,8 +10,7 @@
 #include "oracle/uniform_walk.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::segment_walk_test {
 
 using test::Random;
 using test::randomSegment;
@@ -188,5 +187,4 @@ TEST(SegmentQuery, PaperSignTestLosesThisDoubleCrossing) {
   EXPECT_GE(agreement.spans, 1);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::segment_walk_test

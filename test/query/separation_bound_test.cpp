@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "oracle/rounds.h"
 #include "query/separation_case.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::separation_bound_test {
 
 using test::drawSeparation;
 using test::Random;
@@ -20,7 +20,7 @@ TEST(Separation, BoundsAndCrossingsAreTrue) {
   SeparationMemory memory;
   long apart = 0, crossing = 0, open = 0;
   std::vector<double> ratios;  // of the bound to the distance found
-  for (int trial = 0; trial < 250; ++trial) {
+  for (int trial = 0; trial < test::rounds(250); ++trial) {
     const double travel = std::pow(10.0, test::uniform(random, -4, -0.3));
     const Case c =
         drawSeparation(shapes, random, travel, 3 * travel, std::pow(10.0, test::uniform(random, -4.5, -0.7)));
@@ -44,9 +44,9 @@ TEST(Separation, BoundsAndCrossingsAreTrue) {
       }
     }
   }
-  EXPECT_GT(apart, 120);
-  EXPECT_GT(crossing, 40);
-  EXPECT_LT(open, 40);
+  EXPECT_GT(apart, test::rounds(120));
+  EXPECT_GT(crossing, test::rounds(40));
+  EXPECT_LT(open, test::rounds(40));
   std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
   EXPECT_GT(ratios[ratios.size() / 2], 0.55) << "of slow motions the bound is near the distance";
 }
@@ -107,7 +107,7 @@ TEST(Separation, BoundsOfDenseSurfacesAreTrue) {
   Random random(11);
   SeparationMemory memory;
   long apart = 0, long_searches = 0;
-  for (int trial = 0; trial < 120; ++trial) {
+  for (int trial = 0; trial < test::rounds(120); ++trial) {
     const double turn = std::pow(10.0, test::uniform(random, -2.5, 0.2));
     const Case c = drawSeparation(shapes, random, 0.03 * turn, turn, std::pow(10.0, test::uniform(random, -4, -2)));
     SeparationWitness witness;
@@ -120,9 +120,8 @@ TEST(Separation, BoundsOfDenseSurfacesAreTrue) {
       ASSERT_LE(found.distance, c.leastFound() + 1e-13L) << trial;
     }
   }
-  EXPECT_GT(apart, 20);
-  EXPECT_GT(long_searches, 30);
+  EXPECT_GT(apart, test::rounds(20));
+  EXPECT_GT(long_searches, test::rounds(30));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::separation_bound_test

@@ -5,8 +5,7 @@
 #include "query/separation_case.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::separation_test {
 
 using test::Random;
 using test::treeOf;
@@ -237,5 +236,4 @@ TEST(Separation, NoMoreTestsThanAreAllowed) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::separation_test

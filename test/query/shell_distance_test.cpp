@@ -5,8 +5,7 @@
 #include "oracle/random.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::shell_distance_test {
 
 using test::Random;
 
@@ -42,5 +41,4 @@ TEST(ShellDistance, IsThatOfTheNearestPointOfAll) {
   EXPECT_GT(none, 30);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::shell_distance_test

@@ -13,8 +13,7 @@
 #include "sdf_ccd/query/segment_query.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::shell_query_test {
 
 using test::Random;
 
@@ -379,5 +378,4 @@ TEST(ShellQuery, EmptyShellNeverHits) {
   EXPECT_FALSE(result.touches());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::shell_query_test

@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::sphere_sides_test {
 
 using test::Random;
 
@@ -155,5 +154,4 @@ TEST(SphereSides, FarFromTheFieldAllIsOutside) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::sphere_sides_test

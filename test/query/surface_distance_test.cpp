@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/geometry/primitive.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::surface_distance_test {
 
 using test::Random;
 using test::Real;
@@ -172,5 +171,4 @@ TEST(SurfaceDistance, WhatIsBarelyWithinRangeIsFoundAmongManyThatAreNot) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::surface_distance_test

@@ -6,8 +6,7 @@
 #include "oracle/triangle_distance.h"
 #include "query/surfaces/triangle_pairs_scalar.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::triangle_pair_test {
 
 using test::exact;
 using test::Random;
@@ -174,5 +173,4 @@ TEST(TrianglePair, LanesGapsHoldAtBothEnds) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::triangle_pair_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::verdict_test {
 
 const std::vector<Verdict> kBySeverity = {Verdict::kClear, Verdict::kNotChecked, Verdict::kUncertain,
                                           Verdict::kContact};
@@ -56,5 +55,4 @@ TEST(Verdict, MayTouchUnlessItIsClearOrUnknown) {
     EXPECT_EQ(mayTouch(verdict), verdict == Verdict::kUncertain || verdict == Verdict::kContact) << toString(verdict);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::verdict_test

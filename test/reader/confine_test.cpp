@@ -15,8 +15,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::confine_test {
 
 /// Whether an attempt succeeds in a child process that has called detachFromHost() and confine().
 bool possible(const std::function<bool()>& attempt) {
@@ -78,5 +77,4 @@ TEST(Confine, LimitsGrowWithTheFileAndNeverBeyondTheComputer) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::confine_test

@@ -13,8 +13,7 @@
 #include "reader/parse_mesh.h"
 #include "reader/parse_octomap.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::damaged_file_test {
 
 struct File {
   std::string format;
@@ -157,5 +156,4 @@ TEST(DamagedFile, NodesThatContainThemselvesInWhateverWay) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::damaged_file_test

@@ -8,8 +8,7 @@
 #include "reader/parse_mesh.h"
 #include "storage/content_hash.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::locale_test {
 
 constexpr const char* kDae = R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"
  version="1.4.1"><asset><unit meter="0.5"/><up_axis>Z_UP</up_axis></asset><library_geometries><geometry id="g"><mesh>
@@ -47,5 +46,4 @@ TEST(ReaderLocale, AMapIsTheSameInEveryLocale) {
   EXPECT_NE(withPlainHead(file, head).find("res 0.025"), std::string::npos) << withPlainHead(file, head);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::locale_test

@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "reader/parse_mesh.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::mesh_formats_test {
 
 constexpr double kVolume = 48.0;
 
@@ -183,5 +182,4 @@ TEST(MeshFormats, DaePolygonsAndTransforms) {
                std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::mesh_formats_test

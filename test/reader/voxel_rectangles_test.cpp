@@ -8,8 +8,7 @@
 #include "oracle/random.h"
 #include "reader/voxel_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::voxel_rectangles_test {
 
 constexpr double kSize = 0.5;
 
@@ -102,5 +101,4 @@ TEST(VoxelSolid, ContainsWhatHasNoEmptyVoxelWithinTheSlack) {
   EXPECT_FALSE(voxels->contains({std::nan(""), 0.25, 0.25}, 0.1));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::voxel_rectangles_test

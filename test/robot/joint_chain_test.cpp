@@ -6,8 +6,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::joint_chain_test {
 
 /// A forearm, and behind it a wrist of two joints about z and a finger that slides along x.
 const char* const kWrist = R"(<robot name="w">
@@ -81,5 +80,4 @@ TEST(JointChain, NoDistanceFallsFasterThanTheJointsAllow) {
   EXPECT_EQ(maxClosingSpeed(w.robot, finger, ball_a, finger, ball_b), 0.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::joint_chain_test

@@ -7,8 +7,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::joint_spline_test {
 
 using test::Random;
 using test::uniform;
@@ -79,5 +78,4 @@ TEST(JointSpline, WhatCannotBeCutFineEnoughIsRefused) {
   EXPECT_THROW(piecesWithin(none, 1.0, 1e-6), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::joint_spline_test

@@ -4,8 +4,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::joint_torques_test {
 
 using test::Random;
 
@@ -73,5 +72,4 @@ TEST(JointTorques, WithoutWrenchesThereAreNone) {
   EXPECT_EQ(found, std::vector<double>(4, 0.0));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::joint_torques_test

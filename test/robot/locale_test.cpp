@@ -3,8 +3,7 @@
 #include "oracle/german_locale.h"
 #include "sdf_ccd/robot/robot_model.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::locale_test {
 
 // The numbers of a URDF are read by urdfdom, whose own reader does not follow the locale.
 TEST(RobotLocale, AUrdfIsTheSameInEveryLocale) {
@@ -26,5 +25,4 @@ TEST(RobotLocale, AUrdfIsTheSameInEveryLocale) {
   EXPECT_TRUE(robot.forwardKinematics({{"j", 0.25}})[1].translation().isApprox(Vector3d(1.65, 0, 0.2)));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::locale_test

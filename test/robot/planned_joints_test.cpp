@@ -8,8 +8,7 @@
 #include "oracle/failure.h"
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::planned_joints_test {
 
 const char* const kRobot = R"(<robot name='r'>
   <link name='base'/><link name='arm'/><link name='bracket'/><link name='hand'/><link name='finger'/><link name='cart'/>
@@ -155,5 +154,4 @@ TEST_F(PlannedJointsTest, UnknownJointsAndNumbersThatAreNoneAreRefused) {
   EXPECT_NE(refusal(at({{"elbow", std::nan("")}})).find("is not finite"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::planned_joints_test

@@ -6,8 +6,7 @@
 
 #include "motion/screw_motion.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::proof_watch_test {
 
 BodyDescription body(const Primitive& shape, bool is_world) {
   BodyDescription made;
@@ -107,5 +106,4 @@ TEST_F(ProofWatchTest, JoinedBodiesMayDeviateByAMillimetreAtTheirFarthestPoints)
   EXPECT_TRUE(isContradicted(rests, {at(1, 0), turned(0.011)}));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::proof_watch_test

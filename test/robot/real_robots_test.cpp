@@ -6,8 +6,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::real_robots_test {
 
 struct RealRobot {
   const char* urdf;
@@ -71,5 +70,4 @@ INSTANTIATE_TEST_SUITE_P(
         RealRobot{"example-robot-data/robots/allegro_hand_description/urdf/allegro_right_hand.urdf", "", 21, 21, 189}),
     test::ParameterName());
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::real_robots_test

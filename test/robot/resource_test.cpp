@@ -13,8 +13,7 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::resource_test {
 
 namespace fs = std::filesystem;
 
@@ -154,5 +153,4 @@ TEST_F(ResourceFiles, UnreadableFileIsNamed) {
   EXPECT_NE(failure("secret.stl").find("cannot be opened"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::resource_test

@@ -11,8 +11,7 @@
 #include "oracle/test_data.h"
 #include "robot/small_robots.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_model_test {
 
 using test::kArm;
 using test::kPi;
@@ -248,5 +247,4 @@ TEST(RobotModel, ReachIsNeverViolatedByCalibratedPr2) {
   expectReachHolds(robot, 20);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_model_test

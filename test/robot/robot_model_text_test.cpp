@@ -9,8 +9,7 @@
 #include "robot/small_robots.h"
 #include "sdf_ccd/robot/robot_model.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_model_text_test {
 
 using test::kArm;
 
@@ -332,5 +331,4 @@ TEST(RobotModel, TheRobotNeedNotBeTheFirstElement) {
                                      "<joint>"});
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_model_text_test

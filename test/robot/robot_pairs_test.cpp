@@ -5,8 +5,7 @@
 #include "oracle/failure.h"
 #include "robot/robot_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_pairs_test {
 
 using namespace test;
 
@@ -143,5 +142,4 @@ TEST(RobotScene, WorldObjectsOutOfReachAreNoPair) {
   EXPECT_EQ(reasonFor(scene, "elsewhere", "a"), "checked");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_pairs_test

@@ -9,8 +9,7 @@
 
 #include "robot/robot_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_scene_test {
 
 using namespace test;
 
@@ -264,5 +263,4 @@ TEST(RobotScene, WarningsArePassedOnOnce) {
   EXPECT_NE(described.warnings[0].find("found good.off"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_scene_test

@@ -6,8 +6,7 @@
 #include "robot/joint_spline.h"
 #include "robot/trajectory_motion.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::splined_trajectory_test {
 
 using test::Random;
 using test::uniform;
@@ -91,5 +90,4 @@ TEST(SplinedTrajectory, WhatDoesNotFitIsRefused) {
   EXPECT_THROW(splined({"j"}, bad, 1e-3), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::splined_trajectory_test

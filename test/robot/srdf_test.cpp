@@ -6,8 +6,7 @@
 
 #include "oracle/failure.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::srdf_test {
 
 std::string failure(const std::string& xml) {
   return test::failureOf([&] { parseSrdf(xml); });
@@ -89,5 +88,4 @@ TEST(Srdf, TextThatIsNoneOrIsNotExpandedIsTold) {
                                      "it, and what it stands for is missing"});
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::srdf_test

@@ -9,8 +9,7 @@
 #include "oracle/failure.h"
 #include "robot/random_robot.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::trajectory_motion_test {
 
 using test::Random;
 
@@ -269,5 +268,4 @@ TEST(TrajectoryMotion, TwoTrajectoriesMergeAtTheTimesOfBoth) {
   EXPECT_THROW(merged(joints, base), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::trajectory_motion_test

@@ -4,8 +4,7 @@
 
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::unreachable_pairs_test {
 
 /// Two balls of 0.1 m radius at both ends of a rail of 3 m, one of which slides by 1 m.
 const char* const kRail = R"(<robot name='r'>
@@ -115,5 +114,4 @@ TEST(RigidlyJoinedPairs, AreUncheckedWherePosesMoveThem) {
   EXPECT_EQ(whyReachable(motion, {false, false}, pairs[0]), "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::unreachable_pairs_test

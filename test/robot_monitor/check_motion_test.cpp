@@ -7,8 +7,7 @@
 #include "robot_monitor/check_motion_case.h"
 #include "sdf_ccd/body/prepare_body.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::check_motion_test {
 
 using namespace test;
 
@@ -110,5 +109,4 @@ TEST(PlanThrough, RefusesWhatDoesNotFit) {
                 [](CycleMotion& motion) { motion.X_WB[0][1] = Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitZ()); });
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::check_motion_test

@@ -7,8 +7,7 @@
 
 #include "robot_monitor/check_motion_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::check_motions_test {
 
 using namespace test;
 
@@ -249,5 +248,4 @@ TEST_F(CheckMotionsTest, WhatMakesAMotionMayThrow) {
   EXPECT_TRUE(checkMotions(scene_, {}, 0, motion).empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::check_motions_test

@@ -12,8 +12,7 @@
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::hostile_mesh_test {
 
 const std::string kSource = SDF_CCD_SOURCE_DIR;
 
@@ -108,5 +107,4 @@ TEST(HostileMesh, ThePrismIsWhole) {
   for (const BodyDescription& body : arm.bodies) EXPECT_EQ(body.failure, "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::hostile_mesh_test

@@ -15,8 +15,7 @@
 #include "oracle/test_data.h"
 #include "robot/joint_sampler.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::learn_pairs_test {
 
 using Names = std::set<std::string>;  // "a b"
 
@@ -360,5 +359,4 @@ TEST(JointSampler, DrawsWithinLimitsAndAllOfThem) {
   EXPECT_GT(std::count(drawn["to_b"].begin(), drawn["to_b"].end(), 1.0), 150);  // at its limit
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::learn_pairs_test

@@ -4,8 +4,7 @@
 
 #include "robot_monitor/check_motion_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::left_out_motion_test {
 
 using namespace test;
 
@@ -70,10 +69,10 @@ TEST_F(LeftOutMotion, BeyondTheLimitsIsNotChecked) {
             Verdict::kClear);
   const CycleResult through = checkMotion(scene, {}, planAlong(robot_, plan(0.0, -6.0), bodiesOf(*scene, robot_)));
   EXPECT_EQ(through.verdict, Verdict::kNotChecked) << "the carriage goes through the base";
-  EXPECT_EQ(uncheckedOf(*scene, through),
-            (std::vector<std::string>{
-                "base - carriage: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6",
-                "base - hand: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6"}));
+  EXPECT_EQ(
+      uncheckedOf(*scene, through),
+      (std::vector<std::string>{"base - carriage: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6",
+                                "base - hand: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6"}));
 }
 
 TEST_F(LeftOutMotion, BeyondTheLimitsIsNotCheckedAmongManyMotions) {
@@ -129,7 +128,10 @@ TEST_F(LeftOutMotion, PosesThatContradictTheUrdfAreNotChecked) {
     const auto at = [](const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); };
     CycleMotion motion;
     motion.times = {0.0, 1.0};
-    motion.X_WB = {{at({0, 0, 0})}, {at({3, 0, 0}), at(carriage)}, {at({3, 0, 1}), at(hand)}, {at({0, 5, 0})},
+    motion.X_WB = {{at({0, 0, 0})},
+                   {at({3, 0, 0}), at(carriage)},
+                   {at({3, 0, 1}), at(hand)},
+                   {at({0, 5, 0})},
                    {at({3, 0, 1.3}), at(tool)}};
     return checkMotion(scene, {}, planThrough(motion, {false, true, true, false, true})).verdict;
   };
@@ -142,11 +144,9 @@ TEST_F(LeftOutMotion, PosesThatContradictTheUrdfAreNotChecked) {
 TEST_F(LeftOutMotion, ABodyMovesOnlyIfItIsSaidTo) {
   CycleMotion motion;
   motion.times = {0.0, 1.0};
-  motion.X_WB = {{Isometry3d::Identity()},
-                 {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}};
+  motion.X_WB = {{Isometry3d::Identity()}, {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}};
   EXPECT_NO_THROW(planThrough(motion, {false, true}));
   EXPECT_THROW(planThrough(motion, {true, false}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::left_out_motion_test

@@ -8,8 +8,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::margin_test {
 
 using namespace test;
 
@@ -24,8 +23,7 @@ SharedScene ballAbove(const BodyDescription& below) {
 CycleResult slide(const SharedScene& scene, double height, double far, double margin) {
   CycleMotion motion;
   motion.times = {0.0, 1.0};
-  motion.X_WB = {{translation({far, 0, height + 0.1}), translation({far, 1, height + 0.1})},
-                 {Isometry3d::Identity()}};
+  motion.X_WB = {{translation({far, 0, height + 0.1}), translation({far, 1, height + 0.1})}, {Isometry3d::Identity()}};
   CycleRequest request;
   request.margin = margin;
   return checkMotion(scene, {}, planThrough(motion, {true, false}), request);
@@ -130,5 +128,4 @@ TEST(Margin, IsRefusedIfItIsNone) {
     EXPECT_THROW(slide(scene, 1.0, 0.0, wrong), std::invalid_argument) << wrong;
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::margin_test

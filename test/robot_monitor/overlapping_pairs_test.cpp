@@ -10,8 +10,7 @@
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::overlapping_pairs_test {
 
 Resource noResource(const std::string& uri) {
   throw std::runtime_error("no " + uri);
@@ -364,5 +363,4 @@ TEST(OverlappingPairs, OfCapsules) {
   EXPECT_GT(verdict(0.45), 0.03);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::overlapping_pairs_test

@@ -17,8 +17,7 @@
 #include "sdf_ccd/robot/robot_scene.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_in_map_test {
 
 const std::string kMap = "octomaps/geb079.bt";
 const std::string kUrdf = "robots/example-robot-data/robots/ur_description/urdf/ur5_robot.urdf";
@@ -200,7 +199,6 @@ TEST_F(RobotInMap, SweepsAreCaughtAtTheRightVoxels) {
   EXPECT_EQ(open, 0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_in_map_test
 
 #endif

@@ -6,8 +6,7 @@
 
 #include "oracle/scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_pair_traits_test {
 
 const char* const kWrist = R"(<robot name="w">
   <link name="forearm"/><link name="wrist"/><link name="flange"/>
@@ -72,5 +71,4 @@ TEST(RobotPairTraits, TheLastLimitThatMatchesCounts) {
             0.01);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_pair_traits_test

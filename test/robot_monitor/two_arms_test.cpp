@@ -8,8 +8,7 @@
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::two_arms_test {
 
 constexpr double kBall = 0.05, kArm = 0.8;  // [m]
 const Vector3d kRod(0.4, 0.02, 0.02);       // half size [m]
@@ -126,5 +125,4 @@ TEST_F(TwoArmsTest, NoVerdictContradictsTheJointsAngles) {
   EXPECT_EQ(counts[static_cast<int>(Verdict::kNotChecked)], 0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::two_arms_test

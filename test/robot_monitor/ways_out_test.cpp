@@ -4,8 +4,7 @@
 
 #include <map>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::ways_out_test {
 
 /// An arm of two links in a plane, with a gripper of two fingers, of which one follows the other.
 const char* const kArm = R"(<robot name="arm">
@@ -93,5 +92,4 @@ TEST_F(WaysOutTest, WithoutADirectionOrPoseThereIsNone) {
   EXPECT_TRUE(waysOut(robot_, {pair}, unknown)[0].empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::ways_out_test

@@ -6,8 +6,7 @@
 #include "ros/monitor/proximity_measure.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::changing_loop_test {
 
 using namespace test;
 
@@ -154,5 +153,4 @@ TEST_F(ChangingLoopTest, AContactWithWhatGoesIsSaidToEnd) {
   EXPECT_TRUE(last().contacts.empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::changing_loop_test

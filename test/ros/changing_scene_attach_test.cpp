@@ -1,7 +1,6 @@
 #include "ros/changing_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::changing_scene_attach_test {
 
 using namespace test;
 
@@ -77,7 +76,9 @@ TEST_F(ChangingSceneAttachTest, ATileIsJudgedAsItsObjectAsLongAsThatIsThere) {
     made->is_world = true;
     made->map = "octomap";
   }
-  const auto setTiles = [&] { scene_->setTiles({other, tile}, {{tile.name, {"box", scene_->declared().at("box")}}}, nullptr); };
+  const auto setTiles = [&] {
+    scene_->setTiles({other, tile}, {{tile.name, {"box", scene_->declared().at("box")}}}, nullptr);
+  };
   const auto isChecked = [&] {
     EXPECT_EQ(body(other.name).name, other.name);
     return !body(tile.name).name.empty();
@@ -145,5 +146,4 @@ TEST_F(ChangingSceneAttachTest, AttachesWhatIsNotThereYet) {
   EXPECT_EQ(refusal(attach), "the robot has no link nowhere");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::changing_scene_attach_test

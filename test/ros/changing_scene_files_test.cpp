@@ -10,8 +10,7 @@
 #include "oracle/shapes.h"
 #include "ros/changing_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::changing_scene_files_test {
 
 using namespace test;
 
@@ -193,5 +192,4 @@ TEST_F(ChangingSceneFilesTest, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"all", "table"}));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::changing_scene_files_test

@@ -4,8 +4,7 @@
 
 #include "ros/changing_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::changing_scene_test {
 
 using namespace test;
 
@@ -226,5 +225,4 @@ TEST_F(ChangingSceneTest, AMapPaysForNoPatternAnew) {
   EXPECT_LT(now() - first, first - start) << "for five of them";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::changing_scene_test

@@ -13,8 +13,7 @@
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::check_bag_ends_test {
 
 using namespace test;
 
@@ -437,5 +436,4 @@ TEST_F(CheckBag, WhatCannotBeCheckedIsNamed) {
   EXPECT_EQ(table("made/cycles.csv")[0]["verdict"], "NOT_CHECKED");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::check_bag_ends_test

@@ -8,8 +8,7 @@
 #include "ros/check_bag_case.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::check_bag_motion_test {
 
 using namespace test;
 
@@ -111,5 +110,4 @@ TEST_F(CheckBag, StaticTransformsAloneAreChecked) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::check_bag_motion_test

@@ -14,8 +14,7 @@
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::check_bag_test {
 
 using namespace test;
 
@@ -436,5 +435,4 @@ TEST_F(CheckBag, PairsAreLearnedFromABag) {
       << warned.error;
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::check_bag_test

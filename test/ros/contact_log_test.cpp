@@ -4,8 +4,7 @@
 
 #include "monitor/tracker_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::contact_log_test {
 
 using namespace test;
 
@@ -69,5 +68,4 @@ TEST_F(ContactLogTest, SaysAtMostFiveLinesASecondAndHowManyItLeftOut) {
   EXPECT_NE(said[0].find("(and 3 lines about contacts before it)"), std::string::npos) << said[0];
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::contact_log_test

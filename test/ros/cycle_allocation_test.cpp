@@ -21,8 +21,7 @@
 #include "sdf_ccd/MonitorState.h"
 #include "thread_allocations.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_allocation_test {
 
 using test::stampedTransform;
 
@@ -114,8 +113,7 @@ TEST_F(CycleAllocationTest, NoneOnceCyclesAreAlike) {
   EXPECT_TRUE(loader_.unload(kName));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_allocation_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

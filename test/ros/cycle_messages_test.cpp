@@ -11,8 +11,7 @@
 #include "ros/monitor/unchecked.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_messages_test {
 
 using namespace test;
 
@@ -85,7 +84,8 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
 }
 
 TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
-  const auto scene = build({body("hand", Sphere{kRadius}), body("foot", meshShape({})), body("plate", meshShape({}), true)});
+  const auto scene =
+      build({body("hand", Sphere{kRadius}), body("foot", meshShape({})), body("plate", meshShape({}), true)});
   loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
   for (int i = 0; i < 4; ++i) {
     if (i < 3) sendHand(10.0 + i * kPeriod, 0.0);
@@ -108,8 +108,8 @@ TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
 }
 
 TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
-  const auto scene = build({body("hand", meshShape(icosphere(0.2, 4))), body("plate", meshShape(icosphere(0.2, 4)), true)},
-                           fine(0.001));
+  const auto scene = build(
+      {body("hand", meshShape(icosphere(0.2, 4))), body("plate", meshShape(icosphere(0.2, 4)), true)}, fine(0.001));
   loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
   CycleRequest request;
   // Some time suffices for the verdict, but not for the contact, however busy the machine is.
@@ -232,5 +232,4 @@ TEST_F(CycleMessagesTest, ResetsAndJumpsEndAllContacts) {
   EXPECT_EQ(last().contacts[0].id, 3u);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_messages_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <thread>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_trigger_test {
 
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
@@ -36,7 +35,9 @@ TEST(CycleTrigger, EventsAtTheRateBeginACycleEachHoweverTheyJitter) {
     // A cycle begins 50 us after it may, and contains all events that have come by then.
     const nanoseconds arrived = start + event * period + nanoseconds(late(random));
     const nanoseconds begun = std::max(arrived, due) + nanoseconds(50000);
-    if (cycles > 0) EXPECT_GE(begun - last, period / 2);
+    if (cycles > 0) {
+      EXPECT_GE(begun - last, period / 2);
+    }
     while (start + event * period <= begun) ++event;
     last = begun;
     ++cycles;
@@ -170,5 +171,4 @@ TEST(CycleTrigger, StopEndsAllWaiting) {
   stops.join();
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_trigger_test

@@ -4,8 +4,7 @@
 
 #include <thread>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::cycle_watchdog_test {
 
 using Seconds = CycleWatchdog::Seconds;
 using Clock = std::chrono::steady_clock;
@@ -48,5 +47,4 @@ TEST(CycleWatchdog, EndsAtOnceEvenWithinACycle) {
   EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::cycle_watchdog_test

@@ -7,8 +7,7 @@
 
 #include "oracle/failure.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::describe_scene_test {
 
 /// A base that holds a wheel on a caster, and a table beside it.
 MonitorParameters cart() {
@@ -113,9 +112,10 @@ using Pairs = std::set<std::string>;
 TEST(DescribeScene, LinksThatOverlapAtRestAreSetAsideByDefault) {
   std::vector<std::string> left_out;
   EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
-  EXPECT_EQ(std::count_if(
-                left_out.begin(), left_out.end(),
-                [](const std::string& pair) { return pair.rfind("pair base - wheel: overlap at rest, with ", 0) == 0; }),
+  EXPECT_EQ(std::count_if(left_out.begin(), left_out.end(),
+                          [](const std::string& pair) {
+                            return pair.rfind("pair base - wheel: overlap at rest, with ", 0) == 0;
+                          }),
             1);
 }
 
@@ -147,5 +147,4 @@ TEST(DescribeScene, RulesHoldForObjectsToo) {
   EXPECT_EQ(std::count(left_out.begin(), left_out.end(), "pair base - table: allowed_pairs: * - table"), 1);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::describe_scene_test

@@ -12,8 +12,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::far_robot_test {
 
 using namespace test;
 
@@ -95,5 +94,4 @@ TEST_P(FarRobotIn, IsNotCheckedWhereItsMapJumps) {
 
 INSTANTIATE_TEST_SUITE_P(FixedFrame, FarRobotIn, ::testing::Values("base", "map"));
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::far_robot_test

@@ -16,8 +16,7 @@
 #include "ros/world/describe_scene.h"
 #include "sdf_ccd/common/cancel.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::fetch_http_test {
 
 using test::failureOf;
 using Clock = std::chrono::steady_clock;
@@ -137,5 +136,4 @@ TEST_F(FetchHttp, WithoutTheProgramNothingIsFetched) {
   ::unsetenv("SDF_CCD_FETCH");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::fetch_http_test

@@ -7,8 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::freed_memory_test {
 
 constexpr double kMegabyte = 1e6;
 
@@ -41,5 +40,4 @@ TEST(FreedMemory, TheEndOfAThreadsHeapIsReturned) {
   EXPECT_LT(kept, 2.0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::freed_memory_test

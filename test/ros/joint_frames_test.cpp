@@ -8,8 +8,7 @@
 
 #include "ros/tf/tf_pose.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::joint_frames_test {
 
 std::string joint(const std::string& name, const std::string& type, const std::string& links,
                   const std::string& more = "") {
@@ -92,5 +91,4 @@ TEST(JointFrames, FixedLinksAreThoseThatAreWanted) {
   EXPECT_EQ(childrenOf(frames.fixed(ros::Time(1.0), [](const std::string& link) { return link != "e"; })), "");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::joint_frames_test

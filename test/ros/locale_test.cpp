@@ -8,8 +8,7 @@
 #include "ros/parameters/world_file.h"
 #include "ros/parameters/yaml_parameters.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::locale_test {
 
 class RosLocale : public ::testing::Test {
  protected:
@@ -51,5 +50,4 @@ TEST_F(RosLocale, ASavedWorldIsTheSameInEveryLocale) {
   EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(read[0].shapes.at(0).shape)).radius, 0.125);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::locale_test

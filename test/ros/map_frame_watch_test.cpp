@@ -4,8 +4,7 @@
 
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::map_frame_watch_test {
 
 using test::message;
 using test::stampedTransform;
@@ -34,7 +33,9 @@ TEST(MapFrameWatch, ACorrectedLocalisationIsAMotionADrivingRobotIsNone) {
     for (int t = 100; t < 110; ++t, driven += 0.5) {
       send(t, 1.0, driven);
       EXPECT_FALSE(watch.hasMoved("map", ros::Time(t), robotAt(1.0 + driven), kLimit)) << fixed << t;
-      if (fixed == "base") EXPECT_FALSE(watch_odom.hasMoved("odom", ros::Time(t), robotAt(driven), kLimit)) << t;
+      if (fixed == "base") {
+        EXPECT_FALSE(watch_odom.hasMoved("odom", ros::Time(t), robotAt(driven), kLimit)) << t;
+      }
     }
     send(110, 1.04, driven);
     EXPECT_FALSE(watch.hasMoved("map", ros::Time(110), robotAt(1.0 + driven), kLimit)) << fixed;
@@ -73,5 +74,4 @@ TEST(MapFrameWatch, AFrameThatTheRobotCarriesMoves) {
   EXPECT_FALSE(watch.isCarried());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::map_frame_watch_test

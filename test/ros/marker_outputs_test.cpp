@@ -11,8 +11,7 @@
 
 #include "ros/loop_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::marker_outputs_test {
 
 using namespace test;
 
@@ -58,8 +57,7 @@ TEST_F(MarkerOutputsTest, TheEndIsShownAlthoughDrawingsWait) {
   EXPECT_EQ(lost, 0);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::marker_outputs_test
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "marker_outputs_test");

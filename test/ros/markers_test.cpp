@@ -15,8 +15,7 @@
 #include "ros/messages/status_text.h"
 #include "ros/messages/world_markers.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::markers_test {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
@@ -288,5 +287,4 @@ TEST(StatusText, LinesAreWrapped) {
   EXPECT_EQ(lineCount("a\nb"), 2);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::markers_test

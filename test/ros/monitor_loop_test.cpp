@@ -13,8 +13,7 @@
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::monitor_loop_test {
 
 using namespace test;
 
@@ -203,8 +202,8 @@ TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
   begin();
   const std::vector<std::string> warnings = driveTo(0.5);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0].find("the fixed frame world moves in odom, and objects of the world move with it, such as plate"),
-            0u)
+  EXPECT_EQ(
+      warnings[0].find("the fixed frame world moves in odom, and objects of the world move with it, such as plate"), 0u)
       << warnings[0];
   EXPECT_EQ(toUncheckedState(1, "world", "", ros::Time(12.0), &loop_->warnings()).warnings, warnings);
   EXPECT_EQ(toUncheckedState(0, "", "building fields", ros::Time(), nullptr).proximity, MonitorState::STOP);
@@ -330,5 +329,4 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
   EXPECT_LT(verdicts(ContactArray::NOT_CHECKED), 30);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::monitor_loop_test

@@ -5,8 +5,7 @@
 #include "oracle/scene_case.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::objects_in_map_test {
 
 using test::stampedTransform;
 
@@ -31,9 +30,8 @@ class ObjectsInMapTest : public ::testing::Test {
   std::map<std::string, ObjectMask> masks(const CheckedWorld& world, const std::string& frame, double stamp,
                                           bool is_new = false) {
     std::map<std::string, ObjectMask> by_name;
-    for (const ObjectMask& mask : ObjectsInMap(history_, world, frame).masks(ros::Time(stamp), [&](const auto&, auto) {
-           return is_new;
-         }))
+    for (const ObjectMask& mask :
+         ObjectsInMap(history_, world, frame).masks(ros::Time(stamp), [&](const auto&, auto) { return is_new; }))
       by_name.emplace(mask.name, mask);
     return by_name;
   }
@@ -78,5 +76,4 @@ TEST_F(ObjectsInMapTest, WhatIsGraspedIsWhereItWasAndStillIs) {
   EXPECT_FALSE(grasped(106.0).isWithin) << "tf does not know yet where it was";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::objects_in_map_test

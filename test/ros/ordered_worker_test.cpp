@@ -6,8 +6,7 @@
 
 #include "ros/messages/message_pool.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::ordered_worker_test {
 
 TEST(OrderedWorker, WorksOnEveryItemInOrderWhicheverSideIsTheSlower) {
   constexpr int kItems = 300;
@@ -75,5 +74,4 @@ TEST(MessagePool, GivesNoMessageThatSomebodyHolds) {
   EXPECT_EQ(pool.take().get(), first);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::ordered_worker_test

@@ -9,8 +9,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/world/describe_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::overlap_warnings_test {
 
 /// A base that holds a wheel on a caster, 10 cm deep, and a boom above that bends into it over three hinges.
 class OverlapWarnings : public ::testing::Test {
@@ -75,5 +74,4 @@ TEST_F(OverlapWarnings, FollowTheScene) {
   EXPECT_EQ(warnings().size(), 2U);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::overlap_warnings_test

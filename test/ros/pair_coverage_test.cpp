@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::pair_coverage_test {
 
 TEST(PairCoverage, NamesPairsThatWereNotRightlyLeftOut) {
   TrackedCycle cycle;
@@ -36,5 +35,4 @@ TEST(PairCoverage, NamesPairsThatWereNotRightlyLeftOut) {
   EXPECT_EQ(coverage.doubtful(0.6).size(), 1u);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::pair_coverage_test

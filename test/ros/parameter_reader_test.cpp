@@ -4,8 +4,7 @@
 
 #include "oracle/failure.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::parameter_reader_test {
 
 XmlRpc::XmlRpcValue tree() {
   XmlRpc::XmlRpcValue tree;
@@ -93,5 +92,4 @@ TEST(ParameterReader, NoParametersGiveDefaults) {
   EXPECT_TRUE(reader.unread().empty());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::parameter_reader_test

@@ -7,8 +7,7 @@
 #include "oracle/failure.h"
 #include "ros/messages/conversions.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::planned_motion_test {
 
 const char* const kUrdf = R"(<robot name="pendulum">
   <link name="base"/>
@@ -274,5 +273,4 @@ TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   EXPECT_NE(refusal(request).find("swong"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::planned_motion_test

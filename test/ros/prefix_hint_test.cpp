@@ -5,8 +5,7 @@
 #include "ros/tf/tf_history.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::prefix_hint_test {
 
 using namespace test;
 
@@ -28,5 +27,4 @@ TEST(PrefixHint, TheHistoryTellsTheFramesThatTfHas) {
   EXPECT_EQ(prefixHint({"base_link"}, history.frames()).rfind("tf has tb1/base_link", 0), 0u);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::prefix_hint_test

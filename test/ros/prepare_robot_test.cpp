@@ -1,7 +1,6 @@
 #include "check_bag_case.h"
 
-namespace sdf_ccd::test {
-namespace {
+namespace sdf_ccd::test::prepare_robot_test {
 
 /// The monitor loads what `build --urdf` has made; check-bag starts like the monitor.
 class PrepareRobot : public CheckBag {
@@ -89,5 +88,4 @@ TEST_F(PrepareRobot, SaysWhatItCannotDo) {
   EXPECT_NE(result.error.find("prepared"), std::string::npos) << result.error;
 }
 
-}  // namespace
-}  // namespace sdf_ccd::test
+}  // namespace sdf_ccd::test::prepare_robot_test

@@ -11,8 +11,7 @@
 #include "oracle/random.h"
 #include "ros/loop_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::proximity_measure_test {
 
 using namespace test;
 
@@ -197,5 +196,4 @@ TEST_F(ProximityMeasureTest, ARobotThatObeysKeepsItsDistanceToTheWorldWhateverIs
   EXPECT_LT(nearest, 0.3);  // it comes near nevertheless
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::proximity_measure_test

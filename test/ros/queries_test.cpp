@@ -6,8 +6,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::queries_test {
 
 using namespace test;
 
@@ -242,5 +241,4 @@ TEST_F(MovedBaseTest, PosesOfAnotherLinkKnowIt) {
   EXPECT_EQ(uncheckedOf(request), std::vector<std::string>{"base - post: rigidly joined in the URDF, but not in tf"});
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::queries_test

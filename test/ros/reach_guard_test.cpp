@@ -8,8 +8,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::reach_guard_test {
 
 using test::message;
 using test::stampedTransform;
@@ -291,5 +290,4 @@ TEST(LateTool, IsNotCheckedIfItIsTooLate) {
   EXPECT_EQ(LateTool().uncheckedWithLag(30, 0.0), std::set<std::string>{"tool is late"});
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::reach_guard_test

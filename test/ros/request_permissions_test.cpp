@@ -2,8 +2,7 @@
 
 #include "ros/changing_scene_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::request_permissions_test {
 
 using namespace test;
 
@@ -191,5 +190,4 @@ TEST_F(RequestPermissionsTest, AnUnknownKindIsRefused) {
   EXPECT_THROW(permissionsOf({"add", "everything"}), std::invalid_argument);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::request_permissions_test

@@ -6,8 +6,7 @@
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::robot_in_map_test {
 
 using test::stampedTransform;
 
@@ -131,5 +130,4 @@ TEST_F(RobotInMapTest, BothPosesAreOfTheSameTimeIfTheMapMoves) {
   EXPECT_FALSE(robot.bodies()[1].is_at_stamp);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::robot_in_map_test

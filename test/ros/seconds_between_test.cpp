@@ -4,8 +4,7 @@
 
 #include "ros/tf/tf_edge.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::seconds_between_test {
 
 TEST(SecondsBetween, EqualsTheDifferenceWhereThereIsOne) {
   for (const ros::Time& from : {ros::Time(0, 0), ros::Time(7, 999999999), ros::Time(1700000000, 1)}) {
@@ -30,5 +29,4 @@ TEST(Before, EqualsTheDifferenceAndEndsAtZero) {
   EXPECT_EQ(before(ros::Time(7, 3), ros::Duration(8, 0)), ros::Time());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::seconds_between_test

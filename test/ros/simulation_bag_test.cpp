@@ -9,8 +9,7 @@
 
 #include "oracle/files.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::simulation_bag_test {
 
 TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
   const SimulationSetup setup = parseSimulation(
@@ -51,5 +50,4 @@ TEST(SimulationBag, HoldsEveryBodysPosesAndMarkersLockedToThem) {
   bag.close();
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::simulation_bag_test

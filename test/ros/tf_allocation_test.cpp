@@ -17,8 +17,7 @@
 #include "ros/monitor/torque_output.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_allocation_test {
 
 using test::stampedTransform;
 
@@ -27,8 +26,8 @@ constexpr double kPeriod = 0.01;  // [s]
 
 /// What may keep an arm from moving at full scale.
 struct Troubles {
-  bool is_body_bad = false;    ///< a body without a mesh
-  int slow_frame_period = 1;   ///< number of messages of which one has the last link's transform
+  bool is_body_bad = false;   ///< a body without a mesh
+  int slow_frame_period = 1;  ///< number of messages of which one has the last link's transform
 };
 
 /// An arm of balls that bends back and forth above a ground, between a static base and a static tool.
@@ -252,5 +251,4 @@ TEST(TfAllocation, NoneForAGripperInContactWithASlidingFinger) {
   EXPECT_GT(gripper.measuredTorques(), 1000);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_allocation_test

@@ -15,8 +15,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_disturbed_test {
 
 using test::message;
 using test::stampedTransform;
@@ -379,5 +378,4 @@ TEST(TfDisturbed, NoTimeOfContactIsLeftAsClear) {
   RecordProperty("times_left_clear", clears);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_disturbed_test

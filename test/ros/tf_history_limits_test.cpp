@@ -2,8 +2,7 @@
 
 #include "ros/tf_history_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_history_limits_test {
 
 using namespace test;
 
@@ -143,5 +142,4 @@ TEST(TfHistory, StampsFarAheadOfTheClockAndLongNamesAreRefused) {
   EXPECT_NEAR(xOf(history, "fixed", 100.0), 1.0, 1e-12);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_history_limits_test

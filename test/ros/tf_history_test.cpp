@@ -8,8 +8,7 @@
 
 #include "ros/tf_history_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_history_test {
 
 using namespace test;
 
@@ -254,5 +253,4 @@ TEST(TfHistory, ALoopEndsWhenItsSenderIsSilent) {
   EXPECT_NEAR(xOf(history, "table", 5.5), 1.0, 1e-12);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_history_test

@@ -8,8 +8,7 @@
 #include "ros/tf/tf_tracker.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_motion_test {
 
 using test::message;
 using test::stampedTransform;
@@ -158,5 +157,4 @@ TEST(TfMotion, TimesWithARecordedTransformBetweenThemHaveNoBound) {
   EXPECT_EQ(speed(0.05, 0.15), std::numeric_limits<double>::infinity());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_motion_test

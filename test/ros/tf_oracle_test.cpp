@@ -12,11 +12,11 @@
 #include <memory>
 #include <random>
 
+#include "oracle/rounds.h"
 #include "ros/tf/tf_history.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_oracle_test {
 
 using test::message;
 using test::stampedTransform;
@@ -280,13 +280,13 @@ TEST(TfOracle, NeverContradictsTf2WhateverIsSent) {
   long known = 0, only_tf2_knows = 0;
   for (const double reparent : {0.0, 0.02, 0.2}) {
     for (const double bad : {0.0, 0.05}) {
-      const Tally tally = duels(60, {0.2, 3.0, reparent, bad, bad});
+      const Tally tally = duels(test::rounds(60), {0.2, 3.0, reparent, bad, bad});
       known += tally.known;
       only_tf2_knows += tally.only_tf2_knows;
     }
   }
-  EXPECT_GT(known, 3000);
-  EXPECT_GT(only_tf2_knows, 1000);  // parents that changed, and transforms that are no rigid motion
+  EXPECT_GT(known, test::rounds(3000));
+  EXPECT_GT(only_tf2_knows, test::rounds(1000));  // parents that changed, and transforms that are no rigid motion
 }
 
 /// Difference between tf2's and the history's interpolation of two poses, at a fraction of the time.
@@ -343,5 +343,4 @@ TEST(TfOracle, HillClimbingFindsNoRotationsThatTf2InterpolatesOtherwise) {
   EXPECT_GT(worst, 1e-9);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_oracle_test

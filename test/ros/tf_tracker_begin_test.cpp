@@ -1,8 +1,7 @@
 // How the first cycle begins.
 #include "ros/tf_tracker_case.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_tracker_begin_test {
 
 using test::stampedTransform;
 using test::TfTrackerTest;
@@ -104,5 +103,4 @@ TEST_F(TfTrackerTest, BeginsWhenTransformsAheadOfTheClockAreKnownAndMakesNobodyL
   EXPECT_NEAR(cycle_.complete_until.toSec(), 11.05, 1e-9);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_tracker_begin_test

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tf_tracker_test {
 
 using test::stampedTransform;
 using test::TfTrackerTest;
@@ -383,5 +382,4 @@ TEST(TfTracker, TilesOfAMapDoNotLimitTheRateOfTransforms) {
   EXPECT_EQ(cycle.motion.pose(0, 30).translation(), Vector3d(1.0, 2.0, 0.0));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tf_tracker_test

@@ -5,8 +5,7 @@
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::torque_output_test {
 
 using test::message;
 using test::stampedTransform;
@@ -69,5 +68,4 @@ TEST_F(TorqueOutputTest, TheWallPressesOnTheJointsThatCarryTheBall) {
   EXPECT_EQ(said.header.stamp, loop_->cycle().end);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::torque_output_test

@@ -24,8 +24,7 @@
 #include "sdf_ccd/MonitorState.h"
 #include "sdf_ccd/Plan.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::unload_test {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
@@ -186,8 +185,7 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
   EXPECT_TRUE(loader_.unload(names[1]));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::unload_test
 
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);

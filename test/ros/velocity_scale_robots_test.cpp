@@ -14,8 +14,7 @@
 #include "ros/world/describe_scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::velocity_scale_robots_test {
 
 struct StockRobot {
   const char* urdf;
@@ -102,7 +101,9 @@ TEST_P(StockRobots, MoveAtFullScaleInAnEmptyWorld) {
     EXPECT_EQ(limits.promised.scale, 1.0);
     EXPECT_EQ(limits.measured.scale, 1.0);
     const bool is_clear = loop.result().verdict == Verdict::kClear;
-    if (is_clear) EXPECT_EQ(at_rest.velocity_scale, 1.0) << tell(at_rest);
+    if (is_clear) {
+      EXPECT_EQ(at_rest.velocity_scale, 1.0) << tell(at_rest);
+    }
     if (!GetParam().is_clear_at_rest && pose.empty()) {
       if (!is_clear) std::cout << tell(at_rest) << std::endl;
       continue;
@@ -140,5 +141,4 @@ INSTANTIATE_TEST_SUITE_P(
         StockRobot{"pr2_calibrated/pr1012_urdf_1a0f5a3.urdf", "", {}, false},
         StockRobot{"pr2_calibrated/pr1012_urdf_67b1b5a5.urdf", "", {}, false}));
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::velocity_scale_robots_test

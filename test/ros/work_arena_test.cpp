@@ -13,8 +13,7 @@
 #include "common/parallel_for.h"
 #include "ros/monitor/low_priority.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::work_arena_test {
 
 constexpr int kThreads = 3;
 constexpr auto kPatience = std::chrono::seconds(20);
@@ -124,5 +123,4 @@ TEST_F(WorkArenaTest, WorkEndsByExceptionsAndCancellation) {
   EXPECT_TRUE(is_waiting_cancelled);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::work_arena_test

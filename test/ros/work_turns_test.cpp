@@ -11,8 +11,7 @@
 
 #include "sdf_ccd/common/cancel.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::work_turns_test {
 
 TEST(WorkTurns, OneMoreCallerThanAllowedIsRefused) {
   WorkTurns turns(2, "calls");
@@ -59,5 +58,4 @@ TEST(WorkTurns, WhoIsCancelledWaitsNoLonger) {
   EXPECT_NO_THROW(WorkTurns::Turn third(turns)) << "the one that waited has left";
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::work_turns_test

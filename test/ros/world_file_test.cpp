@@ -9,8 +9,7 @@
 #include "oracle/test_data.h"
 #include "ros/parameters/moveit_scene.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::world_file_test {
 
 std::string written(const std::string& ending, const std::string& text) {
   static const test::TemporaryDirectory directory;
@@ -214,5 +213,4 @@ TEST(WorldFile, ScenesOfOthers) {
   EXPECT_GE(scenes, 6);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::world_file_test

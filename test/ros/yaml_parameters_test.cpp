@@ -8,8 +8,7 @@
 #include "oracle/files.h"
 #include "ros/parameters/parameters.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::yaml_parameters_test {
 
 XmlRpc::XmlRpcValue load(const std::string& text) {
   const test::TemporaryDirectory directory;
@@ -139,9 +138,9 @@ TEST(YamlParameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.markers.scale, defaults.markers.scale);
   EXPECT_EQ(documented.markers.hold, defaults.markers.hold);
   const RequestPermissions allowed = documented.requests, preset = defaults.requests;
-  for (const auto kind : {&RequestPermissions::add, &RequestPermissions::move, &RequestPermissions::attach,
-                          &RequestPermissions::rules, &RequestPermissions::clear, &RequestPermissions::reset,
-                          &RequestPermissions::limits})
+  for (const auto kind :
+       {&RequestPermissions::add, &RequestPermissions::move, &RequestPermissions::attach, &RequestPermissions::rules,
+        &RequestPermissions::clear, &RequestPermissions::reset, &RequestPermissions::limits})
     EXPECT_EQ(allowed.*kind, preset.*kind);
 }
 
@@ -245,7 +244,8 @@ TEST(YamlParameters, PairsByRule) {
   std::string many = "checked_pairs:\n";
   for (int i = 0; i <= 1000; ++i) many += "- [a, b]\n";
   EXPECT_NE(errorOf(many).find("expected at most 1000 pairs"), std::string::npos);
-  EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of neighbours rest leave_out check"), std::string::npos);
+  EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of neighbours rest leave_out check"),
+            std::string::npos);
 }
 
 TEST(YamlParameters, WhatIsMeasuredOnTrianglesIsPreparedForIt) {
@@ -369,5 +369,4 @@ TEST(YamlParameters, ErrorsNameFileLineAndParameter) {
   EXPECT_THROW(loadYamlParameters("/nowhere/monitor.yaml"), std::runtime_error);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::yaml_parameters_test

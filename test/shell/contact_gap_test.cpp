@@ -15,8 +15,7 @@
 #include "sdf_ccd/import/mesh_file.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::contact_gap_test {
 
 constexpr double kGap = 0.02;
 
@@ -145,5 +144,4 @@ TEST(ContactGap, HoldsOnRobotLinks) {
   EXPECT_LE(largest, contactGap(link.shell, link.shell));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::contact_gap_test

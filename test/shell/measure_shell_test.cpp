@@ -10,8 +10,7 @@
 
 #include "oracle/shapes.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::measure_shell_test {
 
 using Real = long double;
 using Point = Eigen::Matrix<Real, 3, 1>;
@@ -149,5 +148,4 @@ TEST(MeasureShell, PointsThatCoincideToRoundingTakeNoTime) {
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 6 * 0.04, 1e-9);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::measure_shell_test

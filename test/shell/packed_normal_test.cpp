@@ -8,8 +8,7 @@
 
 #include "oracle/random.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::packed_normal_test {
 
 using Real = long double;
 
@@ -93,5 +92,4 @@ TEST(PackedNormal, WhatIsNoDirectionIsUp) {
     EXPECT_EQ(PackedNormal(none).vector(), Vector3d::UnitZ());
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::packed_normal_test

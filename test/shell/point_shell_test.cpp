@@ -10,8 +10,7 @@
 #include "shell/sample_surface.h"
 #include "shell/sampled_points.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::point_shell_test {
 
 using Real = long double;
 using Point = Eigen::Matrix<Real, 3, 1>;
@@ -106,5 +105,4 @@ TEST(PointShell, PointsOfASurfaceFarAwayLieOnIt) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::point_shell_test

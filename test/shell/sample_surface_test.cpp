@@ -13,8 +13,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::sample_surface_test {
 
 constexpr double kRounding = 1e-6;  // relative, of normals and areas
 
@@ -373,5 +372,4 @@ TEST(SampleSurface, HeapsOfVerticesAlongSeamsAreThinned) {
   EXPECT_LT(shell.size(), 5000U);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::sample_surface_test

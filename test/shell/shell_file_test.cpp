@@ -14,8 +14,7 @@
 #include "oracle/shapes.h"
 #include "shell/shell_cache.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::shell_file_test {
 
 class ShellFile : public ::testing::Test {
  protected:
@@ -119,5 +118,4 @@ TEST_F(ShellFile, EveryTruncationIsRefused) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::shell_file_test

@@ -8,8 +8,7 @@
 #include "oracle/shapes.h"
 #include "shell/sample_surface.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::sphere_tree_test {
 
 PointShell shellOf(const std::vector<Vector3d>& points) {
   PointShell shell;
@@ -125,5 +124,4 @@ TEST(SphereTree, IsTheSameEveryTime) {
   for (std::size_t i = 0; i < first.nodes.size(); ++i) EXPECT_EQ(first.nodes[i].radius, second.nodes[i].radius);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::sphere_tree_test

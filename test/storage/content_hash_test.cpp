@@ -5,8 +5,7 @@
 #include "oracle/shapes.h"
 #include "oracle/xxh64_twin.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::content_hash_test {
 
 TEST(ContentHash, ATwinOfEqualXxh64HasAnotherHash) {
   for (const TriangleMesh& mesh : {test::boxMesh({0.1, 0.2, 0.3}), test::icosphere(0.1, 2)}) {
@@ -37,5 +36,4 @@ TEST(ContentHash, DependsOnEveryPart) {
   EXPECT_NE(contentHash(other, {1.0}), hash);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::content_hash_test

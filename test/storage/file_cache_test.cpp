@@ -15,8 +15,7 @@
 #include "oracle/files.h"
 #include "sdf_ccd/common/cancel.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::file_cache_test {
 
 /// A directory in which somebody holds the lock of the file "thing".
 class FileCacheTest : public ::testing::Test {
@@ -190,5 +189,4 @@ TEST_F(TextCacheTest, WhatWasNotUsedForLongestGoes) {
   EXPECT_FALSE(has("a.field") || has("c.shell") || has("c.shell.lock") || has("a.field.abcdef"));
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::file_cache_test

@@ -5,8 +5,7 @@
 
 #include "oracle/files.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::temporary_file_test {
 
 mode_t modeOfFileMadeUnder(mode_t mask) {
   const test::TemporaryDirectory directory;
@@ -25,5 +24,4 @@ TEST(TemporaryFile, KeepsToTheUsersUmask) {
   EXPECT_EQ(modeOfFileMadeUnder(0), 0644u);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::temporary_file_test

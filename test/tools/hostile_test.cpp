@@ -5,8 +5,7 @@
 #include "oracle/hostile_files.h"
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::hostile_test {
 
 constexpr double kSeconds = 5.0;  // for a loaded computer; usually a hundredth of it
 constexpr long kKilobytes = 200'000;
@@ -42,5 +41,4 @@ TEST_F(Hostile, FormatIsWhatTheNameSays) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::hostile_test

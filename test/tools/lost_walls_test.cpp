@@ -5,8 +5,7 @@
 
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::lost_walls_test {
 
 using namespace test;
 
@@ -61,7 +60,8 @@ TEST_F(LostWalls, TheDefaultKeepsThem) {
 
 /// What cannot be kept within the limits is named, with the thickness that is.
 TEST_F(LostWalls, TheDefaultNamesWhatItCannotKeep) {
-  write("foil.off", off(merged(boxMesh({0.1, 0.1, 5e-6}), translated(boxMesh({0.01, 0.01, 0.0137}), {0.3, 0, 0.0373}))));
+  write("foil.off",
+        off(merged(boxMesh({0.1, 0.1, 5e-6}), translated(boxMesh({0.01, 0.01, 0.0137}), {0.3, 0, 0.0373}))));
   const ToolRun run = this->run("query --mesh foil.off --segments in.csv --out out.csv");
   EXPECT_EQ(run.exit_code, kDone);
   EXPECT_NE(run.error.find(kLost), std::string::npos) << run.error;
@@ -100,5 +100,4 @@ TEST_F(LostWalls, ThickSolidsLoseNothing) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::lost_walls_test

@@ -8,8 +8,7 @@
 #include "sdf_ccd/query/segment_query.h"
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::query_command_test {
 
 using namespace test;
 using QueryCommand = test::ToolWithBall;
@@ -162,5 +161,4 @@ TEST_F(QueryCommand, KeepsTheOldOutputIfItFails) {
   EXPECT_EQ(readText(path("out.csv")), "old");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::query_command_test

@@ -2,8 +2,7 @@
 
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::simulate_command_test {
 
 using namespace test;
 using Tool = ToolWithBall;
@@ -76,5 +75,4 @@ TEST_F(Tool, SimulationThatCannotGoOnKeepsWhatItHas) {
   EXPECT_EQ(steps.find("inf"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::simulate_command_test

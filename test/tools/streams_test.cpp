@@ -4,8 +4,7 @@
 #include "oracle/german_locale.h"
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::streams_test {
 
 using namespace test;
 using ToolStreams = ToolWithBall;
@@ -86,5 +85,4 @@ TEST_F(ToolStreams, WhatIsNoUrdfIsSaid) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::streams_test

@@ -9,8 +9,7 @@
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/shell/point_shell.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::tool_test {
 
 using namespace test;
 using Tool = ToolWithBall;
@@ -318,5 +317,4 @@ TEST_F(Tool, LearnPairsListsAllThatTouch) {
   EXPECT_EQ(result.out.find(" more"), std::string::npos) << result.out;
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::tool_test

@@ -2,8 +2,7 @@
 
 #include "tools/tool_run.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::work_precision_command_test {
 
 using namespace test;
 using Tool = ToolWithBall;
@@ -47,5 +46,4 @@ TEST_F(Tool, WorkPrecisionRefusesWhatItCannotMeasure) {
   expectRefused("work-precision cell --mesh open.off --out study", "inside and outside must be certain");
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::work_precision_command_test

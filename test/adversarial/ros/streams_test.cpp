@@ -2,8 +2,7 @@
 
 #include "adversarial/ros/ros_family.h"
 
-namespace sdf_ccd::test {
-namespace {
+namespace sdf_ccd::test::streams_test {
 
 TEST(Streams, NeverMakeAVerdictUntrue) {
   constexpr long kCases = 2000;
@@ -15,5 +14,4 @@ TEST(Streams, NeverMakeAVerdictUntrue) {
   EXPECT_GT(tally.contact, kCases / 50);
 }
 
-}  // namespace
-}  // namespace sdf_ccd::test
+}  // namespace sdf_ccd::test::streams_test
