@@ -9,8 +9,7 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor/world.h"
 
-namespace sdf_ccd {
-namespace {
+namespace sdf_ccd::resting_answers_test {
 
 using namespace test;
 
@@ -130,7 +129,7 @@ TEST(RestingAnswers, OfIdenticalMeshesAreFoundOnce) {
     const CycleResult& result = monitor.run(together(0.1 * i, 0.1 * (i + 1), Isometry3d::Identity()), request);
     EXPECT_TRUE(mayTouch(result.verdict));
     const auto known = scene->resting->find({scene->bodies.shared(0), scene->bodies.shared(1)}, Isometry3d::Identity(),
-                                            1e-6, request, {});
+                                            0.0, request, {});
     ASSERT_EQ(known != nullptr, i > 0) << "once they have rested for two cycles";
     if (known) {
       EXPECT_EQ(known->result.verdict, result.verdict);
@@ -140,6 +139,22 @@ TEST(RestingAnswers, OfIdenticalMeshesAreFoundOnce) {
   // What moves is tested again.
   EXPECT_EQ(monitor.run(together(0.0, 0.1, translation({0, 0, 0.21})), {}).verdict, Verdict::kClear);
   EXPECT_EQ(monitor.run(together(0.0, 0.1, translation({0, 0, 0.19})), {}).verdict, Verdict::kContact);
+}
+
+/// As in queries, each of which has a monitor of its own for a single cycle.
+TEST(RestingAnswers, AreThoseOfOtherMonitorsOfTheScene) {
+  const Shape bellows = meshShape(torusMesh(0.3, 0.1, 48, 24));
+  const auto scene = build(SceneDescription{{body("a", bellows), body("b", bellows)}, {}});
+  const auto isKnown = [&](const Isometry3d& X_AB) {
+    return scene->resting->find({scene->bodies.shared(0), scene->bodies.shared(1)}, X_AB, 0.0, {}, {}) != nullptr;
+  };
+  const Isometry3d elsewhere = translation({0, 0, 0.001});
+  for (const Isometry3d& X_AB : {Isometry3d::Identity(), elsewhere, Isometry3d::Identity(), Isometry3d::Identity()}) {
+    EXPECT_FALSE(isKnown(X_AB)) << "bodies that only turn round are not answered for nothing";
+    EXPECT_TRUE(mayTouch(Monitor(scene, {}).run(together(0.0, 0.1, X_AB), {}).verdict));
+  }
+  EXPECT_TRUE(isKnown(Isometry3d::Identity()));
+  EXPECT_FALSE(isKnown(elsewhere));
 }
 
 /// Errors of poses change from cycle to cycle, and an answer must not tell less than a test of the cycle would.
@@ -163,5 +178,4 @@ TEST(RestingAnswers, TellAsMuchAsTheErrorOfTheCycleAllows) {
   }
 }
 
-}  // namespace
-}  // namespace sdf_ccd
+}  // namespace sdf_ccd::resting_answers_test
