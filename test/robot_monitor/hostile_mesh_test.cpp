@@ -95,9 +95,11 @@ TEST_P(HostileMesh, CostsItsLinkAlone) {
   EXPECT_GT(result.not_checked, 0);
 }
 
+/// But for what another process on the machine may take.
 TEST_P(HostileMesh, StartsNoLater) {
+  constexpr double kLoaded = 0.06;  // [s]
   EXPECT_LT(leastSeconds("file://" + test::hostilePath(GetParam())),
-            leastSeconds("package://sdf_ccd/config/demo/meshes/forearm.obj") + 0.02);
+            leastSeconds("package://sdf_ccd/config/demo/meshes/forearm.obj") + kLoaded);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hostile, HostileMesh, ::testing::ValuesIn(test::hostileMeshes()), test::ParameterName());
