@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
 """A monitor whose cycles take longer than max_latency."""
+import math
+import threading
+import time
 import unittest
 
 import rospy
@@ -12,6 +15,12 @@ from sdf_ccd.msg import ContactArray, MonitorState
 LIMIT = 0.01  # max_latency [s]
 
 
+def swing(balls):
+    while not rospy.is_shutdown():
+        balls.ball = 0.05 * math.sin(time.monotonic())
+        time.sleep(0.01)
+
+
 class LongCycleTest(MasterCase):
     def test_is_not_checked_and_stops_the_robot_while_it_lasts(self):
         rospy.init_node('long_cycle_test', disable_signals=True)
@@ -22,7 +31,8 @@ class LongCycleTest(MasterCase):
         contacts = Recorder('/collision_monitor/contacts', ContactArray, PATIENCE)
         states = Recorder('/collision_monitor/state', MonitorState, PATIENCE)
         scales = Recorder('/collision_monitor/velocity_scale', Float64, PATIENCE)
-        MovingBalls()
+        balls = MovingBalls()
+        threading.Thread(target=swing, args=(balls,), daemon=True).start()  # of balls at rest the forces are known
         self.assertIsNotNone(contacts.find(lambda m: m.verdict == ContactArray.CONTACT))
         state = states.find_new(lambda m: m.reason.startswith('a cycle has been running for'))
         self.assertIsNotNone(state)
