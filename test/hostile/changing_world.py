@@ -34,13 +34,13 @@ class ChangingMap:
         far, wall = voxels((3, -1, 0), (3.05, 1, 1)), voxels((1.5, -1, 0), (1.55, 1, 1))
         self.data = {is_there: binary_data(octree({**dict.fromkeys(wall, is_there), **dict.fromkeys(far, True)}))
                      for is_there in (False, True)}
-        self.changed, self.end, self.wall, self.sent = threading.Condition(), False, False, None
-        self.tiles, self.without, self.unchecked = 0, None, False
+        self.changed, self.wall, self.sent = threading.Condition(), False, None
+        self.tiles, self.unchecked = 0, False
         self.seen, self.missed, self.aged = [], 0, []
         publisher = rospy.Publisher(TOPIC, Octomap, queue_size=1)
 
         def publish():
-            while not self.end:
+            while True:
                 if self.wall is not None:
                     header = Header(stamp=rospy.Time.now(), frame_id=frame)
                     publisher.publish(octomap(header, RESOLUTION, self.data[self.wall]))
@@ -59,9 +59,8 @@ class ChangingMap:
 
         rospy.Subscriber('collision_monitor/plan', Plan, read_plan, queue_size=100)
         rospy.Subscriber('collision_monitor/state', MonitorState, read_state, queue_size=100)
-        self.threads = [threading.Thread(target=work, daemon=True) for work in (publish, self.alternate)]
-        for thread in self.threads:
-            thread.start()
+        for work in (publish, self.alternate):
+            threading.Thread(target=work, daemon=True).start()
 
     def wait(self, condition):
         with self.changed:
@@ -70,11 +69,11 @@ class ChangingMap:
     def alternate(self):
         self.wait(lambda: self.tiles > 0)
         time.sleep(2.0)  # further tiles of the first map
-        self.without = self.tiles
-        while not self.end:
+        without = self.tiles
+        while True:
             self.sent, self.wall = None, not self.wall
             start = time.monotonic()
-            seen = self.wait(lambda: (self.tiles > self.without) == self.wall)
+            seen = self.wait(lambda: (self.tiles > without) == self.wall)
             self.seen.append(time.monotonic() - (self.sent or start) if seen else LONGEST)
             self.missed += not seen
             time.sleep(HOLD)

@@ -47,14 +47,10 @@ double cpuSeconds() {
   return seconds;
 }
 
-double leastSeconds(const std::string& forearm) {
-  double least = 1e9;
-  for (int run = 0; run < 9; ++run) {
-    const double start = cpuSeconds();
-    armWith(forearm);
-    least = std::min(least, cpuSeconds() - start);
-  }
-  return least;
+double secondsWith(const std::string& forearm) {
+  const double start = cpuSeconds();
+  armWith(forearm);
+  return cpuSeconds() - start;
 }
 
 class HostileMesh : public ::testing::TestWithParam<std::string> {};
@@ -95,11 +91,13 @@ TEST_P(HostileMesh, CostsItsLinkAlone) {
   EXPECT_GT(result.not_checked, 0);
 }
 
-/// But for what another process on the machine may take.
 TEST_P(HostileMesh, StartsNoLater) {
-  constexpr double kLoaded = 0.06;  // [s]
-  EXPECT_LT(leastSeconds("file://" + test::hostilePath(GetParam())),
-            leastSeconds("package://sdf_ccd/config/demo/meshes/forearm.obj") + kLoaded);
+  double least = 1e9, least_of_good = 1e9;
+  for (int run = 0; run < 9; ++run) {  // in turn, as what else the computer does slows both
+    least = std::min(least, secondsWith("file://" + test::hostilePath(GetParam())));
+    least_of_good = std::min(least_of_good, secondsWith("package://sdf_ccd/config/demo/meshes/forearm.obj"));
+  }
+  EXPECT_LT(least, least_of_good + 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hostile, HostileMesh, ::testing::ValuesIn(test::hostileMeshes()), test::ParameterName());
