@@ -17,7 +17,6 @@
 #include "motion/screw_motion.h"
 #include "shell/contact_gap.h"
 #include "shell/sample_surface.h"
-#include "shell/witness_points.h"
 
 namespace sdf_ccd {
 namespace {
@@ -96,16 +95,15 @@ class BodyBuilder {
   /// Makes shells that are expected to be refused as too large before the fields are built, which may take long.
   void makeLargeShells(const BodyNeeds& needs) {
     if (!needs.shell || mayShellBeCoarser(options_)) return;
-    const ShellUse use{hasSiblings(), needs.decides};
     for (PooledMesh* const mesh : meshes_) {
       if (!mesh) continue;
-      const ShellOptions options = pool_.shellOptions(*mesh, use);
+      const ShellOptions options = pool_.shellOptions(*mesh, hasSiblings());
       if (expectedPoints(mesh->mesh, options) <= static_cast<double>(options.max_points)) continue;
-      note(pool_.makeShell(*mesh, use).outcome);
+      note(pool_.makeShell(*mesh, hasSiblings()).outcome);
     }
   }
 
-  PointShell makeShell(const std::vector<BodyPart>& parts, const BodyNeeds& needs) {
+  PointShell makeShell(const std::vector<BodyPart>& parts) {
     std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings always have them
     primitives.reserve(meshes_.size());
     std::vector<ShellPart> shells;
@@ -114,54 +112,28 @@ class BodyBuilder {
       if (!meshes_[i]) {
         const Primitive& primitive = primitiveOf(geometry);
         primitives.emplace_back(primitive);
-        shells.push_back({geometry.X_BG, makeShell(primitive, needs), &primitives.back()});
+        shells.push_back({geometry.X_BG, makeShell(primitive), &primitives.back()});
       } else {
-        const ShellUse use{hasSiblings(), needs.decides};
-        note(pool_.makeShell(*meshes_[i], use).outcome);
+        note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
-        shells.push_back(
-            {geometry.X_BG, *meshes_[i]->shells[use.has_siblings][use.decides], known ? &*meshes_[i]->field : nullptr});
+        shells.push_back({geometry.X_BG, *meshes_[i]->shells[hasSiblings()], known ? &*meshes_[i]->field : nullptr});
       }
     }
     return unionShell(shells);
   }
 
-  /// Of all geometry except half-spaces, which are inside no body.
-  PointShell makeWitnesses() const {
-    SampledPoints all;
-    for (std::size_t i = 0; i < meshes_.size(); ++i) {
-      if (isHalfSpace(description_.geometry[i])) continue;
-      const SampledPoints part =
-          witnessPoints(meshes_[i] ? meshes_[i]->mesh : coarse(primitiveOf(description_.geometry[i])));
-      all.covering_radius = part.covering_radius;
-      all.areas.insert(all.areas.end(), part.areas.begin(), part.areas.end());
-      const Isometry3d& X_BG = description_.geometry[i].X_BG;
-      for (const Vector3d& p_G : part.points) all.points.push_back(X_BG * p_G);
-      for (const Vector3f& normal_G : part.normals) all.normals.push_back(X_BG.linear().cast<float>() * normal_G);
-    }
-    return toShell(all);
-  }
-
  private:
-  PointShell makeShell(const Primitive& primitive, const BodyNeeds& needs) {
-    const Growth growth = needs.decides ? Growth::kNone : Growth::kFull;
-    ShellOptions options = shellOptionsFor(options_, surfaceArea(primitive), growth);
+  PointShell makeShell(const Primitive& primitive) {
+    ShellOptions options = shellOptionsFor(options_, surfaceArea(primitive), Growth::kFull);
     options.has_siblings = hasSiblings();
     std::string warning;
     const auto make = [&](double tried) {
       setFineness(tried, options);
-      if (needs.edges_only)
-        return sampleEdges(tessellate(primitive, tried), options);  // a box, which is its tessellation
       return sampleSurface(primitive, options);
     };
     PointShell shell = makeCoarser(finenessOf(options), mayShellBeCoarser(options_), make, warning);
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
-  }
-
-  /// A tessellation, whose vertices lie on the primitive's surface.
-  static TriangleMesh coarse(const Primitive& primitive) {
-    return tessellate(primitive, 0.1 * boundingBox(primitive).sizes().maxCoeff());
   }
 
   bool hasSiblings() const { return meshes_.size() > 1; }
@@ -208,14 +180,8 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   body.inside_is_doubtful = doubt.of_inside;
   builder.makeLargeShells(needs);
   if (needs.field) body.parts = builder.makeParts(progress);
-  if (needs.witnesses) {
-    PointShell witnesses = builder.makeWitnesses();
-    body.witness_tree = buildSphereTree(witnesses);
-    body.witnesses = std::move(witnesses);
-  }
   PointShell shell;
-  if (needs.shell) shell = builder.makeShell(body.parts, needs);
-  report.witnesses = body.witnesses->size();
+  if (needs.shell) shell = builder.makeShell(body.parts);
   if (needs.shell) body.tree = buildSphereTree(shell);
   body.shell = std::move(shell);
   body.ball = surfaceBall(body);
@@ -239,11 +205,6 @@ std::string whyNoShell(const BodyDescription& body) {
     if (isHalfSpace(geometry)) return "a half-space has no bounded surface";
   }
   return {};
-}
-
-bool needsWitnesses(const BodyDescription& body) {
-  return !whyNoShell(body).empty() && !std::all_of(body.geometry.begin(), body.geometry.end(),
-                                                   [](const GeometryDescription& part) { return isHalfSpace(part); });
 }
 
 BuiltBody failedBody(const BodyDescription& description, const std::string& failure) {
@@ -271,8 +232,8 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
     } catch (const std::exception& error) {
       body.failure = error.what();
       body.parts.clear();
-      body.shell = body.witnesses = PointShell();
-      body.tree = body.witness_tree = SphereTree();
+      body.shell = PointShell();
+      body.tree = SphereTree();
     }
   }
   if (!body.failure.empty()) built.report.field = "failed";

@@ -15,16 +15,12 @@ bool hasMesh(const BodyDescription& body);
 /// Why no shell can cover the body's surface; empty if one can.
 std::string whyNoShell(const BodyDescription& body);
 
-/// Whether it has no shell because of its voxels or half-spaces, but has geometry that may lie completely inside
-/// another body, in many components.
-bool needsWitnesses(const BodyDescription& body);
-
 struct BuiltBody {
   Body body;
   BodyReport report;
 };
 
-/// Builds, or reads from the cache, field, shell and witnesses of a body, as far as they are needed. If this fails,
+/// Builds, or reads from the cache, field and shell of a body, as far as they are needed. If this fails,
 /// Body::failure says why.
 ///
 /// Shell points deeper inside a sibling part than the covering radius are left out. The radius stays

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "geometry/mesh_edges.h"
 #include "geometry/trees/box_tree_ray.h"
@@ -11,8 +12,7 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kMaxTriangles = 500'000;
-constexpr std::size_t kMaxOfVoxels = 4 * kMaxTriangles;       // of which a third is left when faces are joined
+constexpr std::size_t kMaxTriangles = 8'000'000;              // about a gigabyte
 constexpr std::size_t kMaxVoxelBytes = std::size_t{1} << 28;  // of the box around the occupied ones, a bit each
 
 /// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
@@ -88,11 +88,18 @@ std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& descri
   return solids;
 }
 
+void requireRoom(std::size_t triangles) {
+  if (triangles > kMaxTriangles)
+    throw std::invalid_argument(std::to_string(triangles) + " triangles, more than the " +
+                                std::to_string(kMaxTriangles) + " that a body may have");
+}
+
 std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& description, MeshPool& pool) {
   Collector all;
   double deviation = 0.0;
   std::vector<BodyTriangles::Voxels> voxels;
   for (const GeometryDescription& geometry : description.geometry) {
+    if (isHalfSpace(geometry)) continue;
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (const auto* ball = std::get_if<Sphere>(primitive)) {
         all.add(*ball, geometry.X_BG);
@@ -104,7 +111,11 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
       }
     } else if (PooledMesh& pooled = pool.find(geometry); geometry.watertight_voxels) {
       const std::shared_ptr<const VoxelSolid>& solid = SolidSource(pooled.mesh, pooled.made).voxels();
-      if (!solid || solid->bytes() > kMaxVoxelBytes) return nullptr;
+      if (!solid) throw std::invalid_argument(geometry.source + ": its faces are not those of whole voxels");
+      if (solid->bytes() > kMaxVoxelBytes)
+        throw std::invalid_argument(geometry.source + ": the box around its voxels needs " +
+                                    std::to_string(solid->bytes() >> 20) + " MB, more than " +
+                                    std::to_string(kMaxVoxelBytes >> 20));
       deviation = std::max(deviation, solid->moved());
       all.addTriangles(boundaryRectangles(*solid), geometry.X_BG);
       all.addComponents(pooled.mesh, geometry.X_BG);
@@ -114,7 +125,7 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
       all.add(pooled.mesh, geometry.X_BG);
     }
     all.endElement();
-    if (voxels.empty() && all.triangles.size() > kMaxTriangles) return nullptr;
+    requireRoom(all.triangles.size());
   }
   if (all.triangles.empty()) return nullptr;
   std::vector<int> order;
@@ -189,19 +200,8 @@ bool BodyTriangles::isInside(const Vector3d& p) const {
   return false;
 }
 
-bool mayHaveTriangles(const BodyDescription& description) {
-  std::size_t count = 0, of_voxels = 0;
-  for (const GeometryDescription& geometry : description.geometry) {
-    if (isHalfSpace(geometry)) return false;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape))
-      (geometry.watertight_voxels ? of_voxels : count) += *mesh ? (*mesh)->triangles.size() : 0;
-  }
-  return count <= kMaxTriangles && of_voxels <= kMaxOfVoxels;
-}
-
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
   WeakStore<BodyTriangles>& shared = pool.content().triangles;
-  if (!mayHaveTriangles(description)) return nullptr;
   const std::string key = pool.keys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
   if (auto known = shared.find(key)) return known;
   auto made = ownTrianglesOf(description, pool);

@@ -54,11 +54,8 @@ struct BodyTriangles {
   std::optional<int> windingNumberOf(int element, const Vector3d& p) const;
 };
 
-/// Whether trianglesOf() gives any: not if the body has half-spaces, more than half a million triangles, or voxels with
-/// more than a million faces.
-bool mayHaveTriangles(const BodyDescription& description);
-
-/// Null if triangles are not the whole body (half-spaces), are too many, or are said to be whole voxels but are not.
+/// Of the body's bounded elements; null if it has none.
+/// @throws std::invalid_argument if there are more than a body may have, or voxels that are none.
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool);
 
 }  // namespace sdf_ccd

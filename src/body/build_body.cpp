@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -35,7 +36,7 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   static_cast<void>(max_preparation_time);
   const auto& [cells, cell_size, field_error, band, max_bytes] = field_options;
   const auto& [spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points] = shell_options;
-  const auto& [field, shell, edges_only, decides, witnesses, triangles, surface] = needs;
+  const auto& [field, shell, triangles, surface] = needs;
   static_cast<void>(triangles);  // added to the shared body, as the surface
   static_cast<void>(surface);
   std::string key = keys.keyOf(description);
@@ -43,7 +44,7 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   add(cells, cell_size, field_error, band, max_bytes);
   add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
   add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, divides_max_error);
-  add(field, shell, edges_only, decides, witnesses);
+  add(field, shell);
   for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
   return key;
 }
@@ -80,6 +81,8 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
     return pool.withinTime(description, [&] { return buildInAnyTime(description, needs, options, pool, progress); });
   } catch (const TookTooLong& late) {
     return failedBody(description, late.what());
+  } catch (const std::invalid_argument& problem) {
+    return failedBody(description, problem.what());
   }
 }
 

@@ -10,7 +10,7 @@ double across(double area, double count, double usual, Growth growth) {
   constexpr double kFinest = 1e-3, kSlowly = 0.25;
   const double resolution = std::max(kFinest, std::sqrt(area) / count);
   if (resolution <= usual || growth == Growth::kFull) return resolution;
-  return growth == Growth::kNone ? usual : usual * std::pow(resolution / usual, kSlowly);
+  return usual * std::pow(resolution / usual, kSlowly);
 }
 
 }  // namespace

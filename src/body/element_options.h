@@ -8,9 +8,7 @@ namespace sdf_ccd {
 
 /// How a resolution that follows an element's size grows on, beyond that of the options.
 enum class Growth {
-  kNone,  ///< not at all: verdicts depend on it
-  kSlow,  ///< by the fourth root: what touches a large element is larger, but not in proportion. Of fields always, and
-          ///< of shells that decide no verdict of closed meshes; open meshes and voxels then have larger error bounds
+  kSlow,  ///< by the fourth root: what touches a large element is larger, but not in proportion. Of meshes
   kFull,  ///< in proportion: of a primitive, whose field is exact
 };
 

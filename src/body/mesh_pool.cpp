@@ -52,14 +52,14 @@ MeshPool::TimeUsed& MeshPool::timeOf(const BodyDescription& body) {
 
 std::string MeshPool::tooLong() const {
   return "preparing it takes more than the " + numberText(options_.max_preparation_time) +
-         " s of max_preparation_time: its meshes have too many triangles, too many that cross each other, or too fine a "
+         " s of max_preparation_time: its meshes have too many triangles, too many that cross each other, or too fine "
+         "a "
          "field or shell";
 }
 
-ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, const ShellUse& use) const {
-  const Growth growth = use.decides ? Growth::kNone : Growth::kSlow;
-  ShellOptions options = shellOptionsFor(options_, surfaceArea(mesh.mesh), growth);
-  options.has_siblings = use.has_siblings;
+ShellOptions MeshPool::shellOptions(const PooledMesh& mesh, bool has_siblings) const {
+  ShellOptions options = shellOptionsFor(options_, surfaceArea(mesh.mesh), Growth::kSlow);
+  options.has_siblings = has_siblings;
   return options;
 }
 
@@ -74,7 +74,7 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
   if (options.cells) cell = boundingBox(mesh.mesh).sizes().maxCoeff() / *options.cells;
   if (options.cell_size) cell = *options.cell_size;
   if (options.max_error) cell = *options.max_error / kHalfSqrt3;
-  const ShellOptions shell = shellOptions(mesh, {false, false});
+  const ShellOptions shell = shellOptions(mesh, false);
   const double gap = !mesh.voxels && shell.edge_gap > 0.0 ? std::min(shell.edge_gap, shell.spacing) : shell.spacing;
   const double margin = 1.1 * (gap + kHalfSqrt3 * cell + options_.motion_margin);
   options.band = std::max(options.band, std::min(margin, kWidestBand * cell));
@@ -100,10 +100,10 @@ MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   return noted(made.outcome, warning);
 }
 
-MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, const ShellUse& use) {
-  std::optional<PointShell>& shell = mesh.shells[use.has_siblings][use.decides];
+MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
+  std::optional<PointShell>& shell = mesh.shells[has_siblings];
   if (shell) return {};
-  ShellOptions options = shellOptions(mesh, use);
+  ShellOptions options = shellOptions(mesh, has_siblings);
   std::string warning;
   const auto make = [&](double tried) {
     setFineness(tried, options);

@@ -36,14 +36,8 @@ struct PooledMesh {
   std::optional<double> cell_size;  ///< of its field [m]; none: that of the scene's options
   MeshQuality quality;              ///< empty for voxels
   std::optional<DistanceField> field;
-  MadeSolid made;                          ///< the solid, and the solid closed by caps
-  std::optional<PointShell> shells[2][2];  ///< by ShellUse: has_siblings, decides
-};
-
-/// What a mesh's shell is for.
-struct ShellUse {
-  bool has_siblings = false;  ///< the mesh is not the only part of its body
-  bool decides = true;        ///< verdicts depend on the shell: see BodyNeeds
+  MadeSolid made;                       ///< the solid, and the solid closed by caps
+  std::optional<PointShell> shells[2];  ///< by whether the mesh is the only part of its body, or has siblings
 };
 
 /// Builds fields and shells of meshes, each once for all bodies that share the mesh (fingers, a second arm). Bodies
@@ -79,12 +73,12 @@ class MeshPool {
   };
   /// The options of the field of a mesh. @throws std::invalid_argument for options that no field can have.
   FieldOptions fieldOptions(const PooledMesh& mesh) const;
-  ShellOptions shellOptions(const PooledMesh& mesh, const ShellUse& use) const;
+  ShellOptions shellOptions(const PooledMesh& mesh, bool has_siblings) const;
 
   /// If the options require more than a field or shell may cost, and allow a coarser one, a coarser one is built; the
   /// outcome's warning says so.
   Made makeField(PooledMesh& mesh, const Progress& progress);
-  Made makeShell(PooledMesh& mesh, const ShellUse& use);
+  Made makeShell(PooledMesh& mesh, bool has_siblings);
 
  private:
   /// Of preparing bodies of the same meshes.

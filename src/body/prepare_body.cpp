@@ -32,8 +32,7 @@ Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   MeshPool pool(options);
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();
-  needs.witnesses = needsWitnesses(description);
-  needs.triangles = needs.surface = true;
+  needs.triangles = true;
   auto [body, report] = buildBody(description, needs, options, pool, {});
   if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
   for (const std::string& warning : report.warnings)

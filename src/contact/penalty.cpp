@@ -299,12 +299,7 @@ class Integrator {
     depth.p_C = X_CF * depth.p_F;
     depth.normal_C = X_CF.linear() * normal_F;
     depth.reach = depth.depth >= reach_from_ ? reachOf(point, times, depth.depth) : 0.0;
-    depth.error = depth.depth_lower_bound = 0.0;
-    if (!request_.depth_errors) return;
-    depth.error = depthError(input_.field, depth.p_F, depth.depth);
-    depth.depth_lower_bound = depth.depth - depth.error;
-    if (depth.depth > input_.field.band())
-      depth.depth_lower_bound = std::max(depth.depth_lower_bound, -input_.field.bounds(depth.p_F).high);
+    depth.error = request_.depth_errors ? depthError(input_.field, depth.p_F, depth.depth) : 0.0;
   }
 
   /// Upper bound of the depth along a part of the straight path, from those at places on it: depth is 1-Lipschitz.

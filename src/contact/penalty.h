@@ -33,7 +33,6 @@ struct HitDepth {
   bool siblings = false;  ///< the whole contact belongs to siblings: the other members are not set
   double depth = 0.0;     ///< [m], positive inside, at a sampled point of the path; the maximum: leastDistance()
   double error = 0.0;     ///< of the depth [m]: depthError(), larger beyond the band
-  double depth_lower_bound = 0.0;  ///< [m]; beyond the band tighter than depth − error
   /// Of a point that gets as deep as the field's band: upper bound of its depth during the hit [m], as values beyond
   /// the band do not tell where it is deepest; otherwise 0.
   double reach = 0.0;
@@ -46,7 +45,7 @@ struct HitDepth {
 /// Outputs of integrateContact() other than depths.
 struct ContactRequest {
   bool impulse = true;
-  bool depth_errors = true;  ///< else `error`, which is depthError(), and depth_lower_bound are not set
+  bool depth_errors = true;  ///< else `error`, which is depthError(), is not set
 };
 
 /// Impulses over all hits.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "sdf_ccd/body/body.h"
 
 namespace sdf_ccd {
 
-/// Whether the body is a single half-space.
-bool isHalfSpace(const Body& body);
+/// Whether the body has a half-space, alone or beside bounded elements.
+bool hasHalfSpace(const Body& body);
 
 /// A body's half-space, in the body's frame.
 struct BodyHalfSpace {
@@ -13,7 +15,7 @@ struct BodyHalfSpace {
   double deviation;  ///< upper bound of its displacement by rounding [m]
 };
 
-/// @param body  must satisfy isHalfSpace().
-BodyHalfSpace halfSpaceOf(const Body& body);
+/// All of them.
+std::vector<BodyHalfSpace> halfSpacesOf(const Body& body);
 
 }  // namespace sdf_ccd

@@ -11,10 +11,9 @@
 #include "monitor/plan/scene_cost.h"
 #include "monitor/plan/scene_totals.h"
 #include "monitor/plan/surface_needs.h"
+#include "resting_answers.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "resting_answers.h"
-#include "surface_crossing.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {
@@ -68,12 +67,7 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
   const Body &body_a = bodies[a], &body_b = bodies[b];
   if (body_a.is_world && body_b.is_world) return;
   const bool a_shell = body_a.shell->size() > 0, b_shell = body_b.shell->size() > 0;
-  PlannedPair pair{a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()};
-  if (pair.isTestable()) {  // witnesses alone prove nothing
-    pair.a_witnesses_b_field = body_a.witnesses->size() > 0 && !body_b.parts.empty();
-    pair.b_witnesses_a_field = body_b.witnesses->size() > 0 && !body_a.parts.empty();
-  }
-  scene.pairs.push_back(pair);
+  scene.pairs.push_back({a, b, a_shell && !body_b.parts.empty(), b_shell && !body_a.parts.empty()});
 }
 
 }  // namespace
@@ -98,11 +92,10 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
     bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
   }
-  const std::vector<bool> surfaces =
-      needSurface(description, scene.pairs, [&](int b) { return isInsideUncertain(bodies[b]); });
   for (std::size_t i = 0; i < count; ++i) {
     Body& body = bodies[i];
-    if (surfaces[i] && body.failure.empty() && !body.surface) body.surface = surfaceOf(description.bodies[i], *pool);
+    if (needsSurface(description, description.bodies[i]) && body.failure.empty() && !body.surface)
+      body.surface = surfaceOf(description.bodies[i], *pool);
   }
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));

@@ -8,7 +8,6 @@
 #include "field/opening_caps.h"
 #include "motion/time_at.h"
 #include "sdf_ccd/common/cancel.h"
-#include "surface_crossing.h"
 
 namespace sdf_ccd {
 namespace {
@@ -20,14 +19,11 @@ constexpr std::size_t kBlockHits = 1 << 17;  // per block of chords, unless a si
 constexpr std::size_t kSomeHits = 1 << 14;   // integrated together
 constexpr std::size_t kManyFound = 1 << 15;  // added to twice the number left after joining
 
-constexpr std::size_t kWalks = 64;  // per part: hits tested for passing through a mesh
-
 }  // namespace
 
 void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, bool crosses) {
   crosses_ = crosses;
-  path_error_ = pair.error.chord + pair.error.root;
-  certain_ = {};
+  path_error_ = pair.contact_error.chord + pair.contact_error.root;
   deepest_ = group_reach_ = 0.0;
   position_error_ = 0.0;
   motion_ = &motion;
@@ -68,31 +64,19 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
   bool have_poses = false;
   CancelTicks<> cancel;
   solids_[shell_is_a ? 0 : 1] = &role.field();
-  is_doubtful_ = role.field().inside_is_doubtful;
   position_error_ = std::max(position_error_, role.shell().position_error);
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
   const GroupedShell shell{role.shell(), role.tree(), bodies[static_cast<std::size_t>(role.motion().p())].sums};
-  const bool groups_points = role.bearsForce() && !shell.sums.empty() && options.stiffness_per == StiffnessPer::kArea &&
-                             options.normal == NormalSource::kField;
+  const bool groups_points =
+      !shell.sums.empty() && options.stiffness_per == StiffnessPer::kArea && options.normal == NormalSource::kField;
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
     const BodyPart& part = role.field().parts[p];
     const ChordPath& path = role.partPath(part);
-    const std::size_t chords = path.chords.size(), blocks = (chords + size - 1) / size;
+    const std::size_t chords = path.chords.size();
     if (chords > 1 || p > 0) is_divided_ = true;
-    std::size_t queried = chords;
-    const auto queryBlock = [&](std::size_t first) -> const ChordPath& {
-      const ChordPath& block = blockOf(path, first, size);
-      if (queried != first) shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
-      queried = first;
-      return block;
-    };
-    // Which points bear force depends on whether the surfaces cross at any time.
-    for (std::size_t first = 0; part.field.openings() && !crosses_ && first < chords; first += size) {
-      queryBlock(first);
-      crosses_ = passesThrough(part.field, role, path, first, std::max<std::size_t>(1, kWalks / blocks));
-    }
     for (std::size_t first = 0; first < chords; first += size) {
-      const ChordPath& block = queryBlock(first);
+      const ChordPath& block = blockOf(path, first, size);
+      shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
       if (!query_.touches()) continue;
       if (!have_poses) setFieldPoses(role);
       have_poses = true;
@@ -131,7 +115,7 @@ void ContactCollector::addGroups(const ContactInput& input, std::size_t part, co
     impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;
   }
   groups_.findDeep(input.field, shell, input.path, deepest_, hits_);
-  integrateContact(input, hits_, options, {false, needsErrors(input.field)}, impulse_);
+  integrateContact(input, hits_, options, {false, input.field.openings() != nullptr}, impulse_);
   const std::vector<PointGroups::Group>& groups = groups_.groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     impulse_.depths[g].reach = groups[g].reach;
@@ -149,28 +133,8 @@ const ChordPath& ContactCollector::blockOf(const ChordPath& path, std::size_t fi
   return block_;
 }
 
-/// Whether a hit of the block that begins at chord `first` passes through the mesh. At most about `max_tested` hits
-/// are tested, because contacts have many points.
-bool ContactCollector::passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path,
-                                     std::size_t first, std::size_t max_tested) const {
-  const std::size_t stride = query_.hits.size() / max_tested + 1;
-  for (std::size_t h = 0; h < query_.hits.size(); h += stride) {
-    checkCancelled();
-    ShellHit hit = query_.hits[h];
-    hit.chord += static_cast<int>(first);
-    if (passesThroughMesh(field, path, role.shell().point(hit.point), hit, path_error_)) return true;
-  }
-  return false;
-}
-
-/// Whether each hit's depth must be proved; otherwise only the errors of the listed points are computed, at the end.
-bool ContactCollector::needsErrors(const DistanceField& field) const {
-  return !crosses_ || field.openings();
-}
-
 /// Adds the hits that integrate() has processed.
 void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool shell_is_a) {
-  const bool certain = !input.field.openings() && !is_doubtful_;
   CancelTicks<1024> cancel;
   for (std::size_t h = 0; h < hits_.size(); ++h) {
     cancel.check();
@@ -186,19 +150,13 @@ void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool
                 hit.point,
                 {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}},
                 part,
-                needsErrors(input.field) ? nullptr : &input.field,
+                input.field.openings() ? nullptr : &input.field,
                 depth.p_F,
                 depth.reach};
     found.contact.p_W = depth.p_C + p_WC_;
     deepest_ = std::max(deepest_, depth.depth);
     // Outward from the field's body, which is B if the shell is A's.
     found.contact.normal_W = shell_is_a ? Vector3d(-depth.normal_C) : depth.normal_C;
-    // Before it is joined with the same point's hits in other parts, whose depths may not be certain.
-    if (certain && needsErrors(input.field) && depth.depth_lower_bound > certain_.depth) {
-      certain_ = {depth.depth_lower_bound, shell_is_a, input.shell.point(hit.point), found.contact};
-      certain_.contact.depth = certain_.depth;
-      certain_.contact.depth_error = 0.0;
-    }
     found_.push_back(found);
   }
   joinWhereMany();
@@ -207,7 +165,7 @@ void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool
 /// integrateContact() over all hits; in a field with openings only over those that may bear force.
 void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
   const bool open = input.field.openings() != nullptr;
-  integrateContact(input, hits_, options, {with_impulse && !open, needsErrors(input.field)}, impulse_);
+  integrateContact(input, hits_, options, {with_impulse && !open, open}, impulse_);
   if (!open) return;
   bearing_hits_.clear();
   for (std::size_t h = 0; h < hits_.size(); ++h) {

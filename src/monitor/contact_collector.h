@@ -25,7 +25,7 @@ class ContactCollector {
     std::vector<NodeSum> sums;                        // of its shell
   };
 
-  /// @param pair     gives the bodies, the span of the motion, and the error.
+  /// @param pair     gives the bodies, the span of the motion, and the error of contacts.
   /// @param crosses  whether the surfaces are known to cross.
   void begin(const CycleMotion& motion, const PairResult& pair, bool crosses);
 
@@ -35,19 +35,6 @@ class ContactCollector {
   /// @param bodies      of the scene.
   void add(PairRole& role, bool shell_is_a, double weight, const std::vector<BodyData>& bodies,
            const ContactOptions& options, bool with_impulse);
-
-  /// Whether the surfaces are known to cross, from begin() or add().
-  bool crosses() const { return crosses_; }
-
-  /// A shell point that is certainly inside a field without openings, up to the path's error.
-  struct CertainPoint {
-    double depth = 0.0;  ///< lower bound [m]
-    bool is_of_a = false;
-    Vector3d p = Vector3d::Zero();  ///< frame of its own body
-    ContactPoint contact;           ///< its depth is the lower bound
-  };
-  /// The deepest one; its depth is 0 if there is none.
-  const CertainPoint& certain() const { return certain_; }
 
   /// Writes intervals, deepest point, points and wrenches to the result.
   void finish(const CycleRequest& request, PairResult& result);
@@ -70,8 +57,6 @@ class ContactCollector {
 
   void setFieldPoses(const PairRole& role);
   const ChordPath& blockOf(const ChordPath& path, std::size_t first, std::size_t size);
-  bool passesThrough(const DistanceField& field, const PairRole& role, const ChordPath& path, std::size_t first,
-                     std::size_t max_tested) const;
   void addHits(const ContactInput& input, std::size_t part, bool shell_is_a);
   void addGroups(const ContactInput& input, std::size_t part, const GroupedShell& shell, bool shell_is_a, double weight,
                  const ContactOptions& options, bool with_impulse);
@@ -84,7 +69,6 @@ class ContactCollector {
   void addPeaks(PairResult& result);
   void setError(const Found& found, double reach, ContactPoint& point) const;
   void integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse);
-  bool needsErrors(const DistanceField& field) const;
   bool bearsForce(const ContactInput& input, std::size_t hit) const;
 
   double tolerance() const;
@@ -114,10 +98,8 @@ class ContactCollector {
   bool crosses_ = false;
   double path_error_ = 0.0;      // [m]
   double position_error_ = 0.0;  // the largest of the shells [m]
-  bool is_doubtful_ = false;     // the inside of the role's field body is doubtful
-  CertainPoint certain_;
-  double deepest_ = 0.0;      // of the points found so far [m]
-  double group_reach_ = 0.0;  // upper bound of the depth of points that were taken together [m]
+  double deepest_ = 0.0;         // of the points found so far [m]
+  double group_reach_ = 0.0;     // upper bound of the depth of points that were taken together [m]
   std::vector<ShellHit> bearing_hits_;
   ContactImpulse bearing_impulse_;
 };

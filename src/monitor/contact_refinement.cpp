@@ -15,7 +15,7 @@ namespace {
 constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
 
 bool canBeMeasured(const Body& body) {
-  return isHalfSpace(body) || (body.triangles && !body.triangles->solids.empty());
+  return hasHalfSpace(body) || (body.triangles && !body.triangles->solids.empty());
 }
 
 /// Empty if no pair needs the body's fields.

@@ -26,7 +26,7 @@ class ContactRefinement {
     SeparationMemory separation;
   };
 
-  /// Whether both bodies of a pair that trianglesDecide() have the solids in which depths are measured, or one is a
+  /// Whether both bodies of a pair that haveSurfaces() have the solids in which depths are measured, or one is a
   /// half-space.
   static bool isPossible(const Scene& scene, const PlannedPair& pair);
 

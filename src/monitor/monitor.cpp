@@ -149,7 +149,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
   ++cycle;
   for (const DuePair& due : schedule->due()) due_in_cycle[static_cast<std::size_t>(due.pair)] = cycle;
   const auto setQuiet = [&](std::size_t i) {
-    if (due_in_cycle[i] != cycle && !is_failed[i]) setSkipped(errorOf(static_cast<int>(i)), checkers[i].margin(), result.pairs[i]);
+    if (due_in_cycle[i] != cycle && !is_failed[i]) setSkipped(errorOf(static_cast<int>(i)), result.pairs[i]);
   };
   for (const int pair : last_due) setQuiet(static_cast<std::size_t>(pair));
   for (std::size_t i = 0; i < checkers.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);

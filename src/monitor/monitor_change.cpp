@@ -80,8 +80,8 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
   for (std::size_t p = 0; p < pairs_now.size(); ++p) {
     const int now = pairs_now[p];
     if (now < 0 || monitor.is_failed[static_cast<std::size_t>(now)]) continue;
-    const PairChecker& checker = monitor.checkers[static_cast<std::size_t>(now)];
-    setSkipped(checker.bound(), checker.margin(), monitor.result.pairs[static_cast<std::size_t>(now)]);
+    setSkipped(monitor.checkers[static_cast<std::size_t>(now)].bound(),
+               monitor.result.pairs[static_cast<std::size_t>(now)]);
     kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
   }
   return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));

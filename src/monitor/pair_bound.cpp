@@ -26,16 +26,13 @@ double fieldError(const Body& body) {
   return error;
 }
 
-ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
+ErrorBound contactBound(const Scene& scene, const PlannedPair& pair) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   const bool a_to_b = pair.a_shell_b_field && a.shell->size() > 0 && !b.parts.empty();
   const bool b_to_a = pair.b_shell_a_field && b.shell->size() > 0 && !a.parts.empty();
   ErrorBound bound;
   if (a_to_b) bound.field = fieldError(b);
   if (b_to_a) bound.field = std::max(bound.field, fieldError(a));
-  // The field's error applies to witness points too.
-  if (pair.a_witnesses_b_field) bound.field = std::max(bound.field, fieldError(b));
-  if (pair.b_witnesses_a_field) bound.field = std::max(bound.field, fieldError(a));
   if (a_to_b && b_to_a) {
     bound.gap = contactGap(a.shell, b.shell);
   } else if (a_to_b || b_to_a) {
@@ -44,17 +41,19 @@ ErrorBound pairBound(const Scene& scene, const PlannedPair& pair) {
   return bound;
 }
 
-bool trianglesDecide(const Body& a, const Body& b) {
-  return a.triangles ? b.triangles || isHalfSpace(b) : b.triangles && isHalfSpace(a);
+bool haveSurfaces(const Body& a, const Body& b) {
+  const auto isAgainst = [](const Body& f, const Body& p) {
+    return p.triangles && !hasHalfSpace(p) && (f.triangles || hasHalfSpace(f));
+  };
+  return isAgainst(a, b) || isAgainst(b, a);
 }
 
-ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair) {
-  if (!trianglesDecide(scene, pair)) return pairBound(scene, pair);
+double deviationOf(const Scene& scene, const PlannedPair& pair) {
   const auto deviation = [&](int body) {
     const auto& triangles = scene.bodies[body].triangles;
     return triangles ? triangles->deviation : 0.0;
   };
-  return {0.0, 0.0, 0.0, deviation(pair.body_a) + deviation(pair.body_b)};
+  return deviation(pair.body_a) + deviation(pair.body_b);
 }
 
 double greatestDepth(const Body& body) {
@@ -66,14 +65,14 @@ double greatestDepth(const Body& body) {
 
 double hiddenDepth(const Scene& scene, const PlannedPair& pair) {
   const auto depth = [&](int surface, int solid, bool has_shell) {
-    if (isHalfSpace(scene.bodies[surface])) return 0.0;  // only the other body's depth in it counts
+    if (hasHalfSpace(scene.bodies[surface])) return 0.0;  // only the other body's depth in it counts
     const PointShell& shell = *scene.bodies[surface].shell;
     const bool covers = has_shell && shell.size() > 0 && !scene.bodies[solid].parts.empty();
     const double deepest = greatestDepth(scene.bodies[solid]);
     return covers ? std::min(shell.covering_radius, deepest) : deepest;
   };
-  return std::max(depth(pair.body_a, pair.body_b, pair.a_shell_b_field && !pair.a_edges_only),
-                  depth(pair.body_b, pair.body_a, pair.b_shell_a_field && !pair.b_edges_only));
+  return std::max(depth(pair.body_a, pair.body_b, pair.a_shell_b_field),
+                  depth(pair.body_b, pair.body_a, pair.b_shell_a_field));
 }
 
 }  // namespace sdf_ccd

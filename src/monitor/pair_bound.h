@@ -9,25 +9,26 @@ namespace sdf_ccd {
 /// The largest error bound of a body's fields [m]; 0 if it has none.
 double fieldError(const Body& body);
 
-/// Error bound of a result of fields and shells before any motion: the field's error and the gap between points. Zero
-/// if the pair's fields or shells were not built.
-ErrorBound pairBound(const Scene& scene, const PlannedPair& pair);
+/// Error bound of the contacts that shells find in fields, before any motion: the field's error and the gap between
+/// points. Zero if the pair has no fields and shells.
+ErrorBound contactBound(const Scene& scene, const PlannedPair& pair);
 
-/// Whether triangles decide the pair: those of both bodies, or those of one against a half-space.
-bool trianglesDecide(const Body& a, const Body& b);
-inline bool trianglesDecide(const Scene& scene, const PlannedPair& pair) {
-  return trianglesDecide(scene.bodies[pair.body_a], scene.bodies[pair.body_b]);
+/// Whether there are surfaces that decide a pair: the triangles of both bodies, one of which may have a half-space
+/// instead or as well.
+bool haveSurfaces(const Body& a, const Body& b);
+inline bool haveSurfaces(const Scene& scene, const PlannedPair& pair) {
+  return haveSurfaces(scene.bodies[pair.body_a], scene.bodies[pair.body_b]);
 }
 
-/// Error bound of a pair's verdict before any motion: the deviation of the triangles if they decide, else pairBound().
-ErrorBound verdictBound(const Scene& scene, const PlannedPair& pair);
+/// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
+double deviationOf(const Scene& scene, const PlannedPair& pair);
 
 /// Upper bound of the depth of points inside a body [m].
 double greatestDepth(const Body& body);
 
 /// Upper bound of the depth to which the surfaces of a pair cross if no point of its shells is inside [m], without the
-/// errors of fields and motion. It exceeds the gap of pairBound(), which bounds only how far points are from where the
-/// surfaces first touch: a rod goes through a plate that is thinner than the distance of the rod's points, and the
+/// errors of fields and motion. It exceeds the gap of contactBound(), which bounds only how far points are from where
+/// the surfaces first touch: a rod goes through a plate that is thinner than the distance of the rod's points, and the
 /// plate's surface is then as deep in the rod as the plate's points, or the rod's size, allow.
 double hiddenDepth(const Scene& scene, const PlannedPair& pair);
 

@@ -57,9 +57,6 @@ class PairChecker {
   void postpone(const CycleMotion& motion, const SweptBodies& bodies, double clearance, double margin,
                 PairMemory& memory, PairResult& result);
 
-  /// Whether measure() can find anything.
-  bool isMeasurable() const { return surfaces_.has_value(); }
-
   /// Measures the distance of a pair that is known to be clear over the whole span. What is stored stays.
   /// @return a lower bound at the span's end [m]; empty if none is found.
   std::optional<double> measure(const CycleMotion& motion, const SweptBodies& bodies, const WaypointSpan& span,
@@ -86,12 +83,7 @@ class PairChecker {
   double clearance() const { return clearance_; }
 
   /// Error bound of the pair's verdict while it is clear, without the motion's error.
-  ErrorBound bound() const { return surfaces_ ? ErrorBound{0.0, 0.0, 0.0, surfaces_->deviation()} : bound_; }
-
-  /// Distance beyond which a test cannot find anything, without the motion's error [m]: what it finds has at most the
-  /// field and chord errors. For triangles it is zero, because their deviation has already been subtracted from their
-  /// clearance.
-  double margin() const { return surfaces_ ? 0.0 : bound_.total() + bound_.field + 2.0 * options_.chords.tolerance; }
+  ErrorBound bound() const { return {0.0, 0.0, 0.0, surfaces_ ? surfaces_->deviation() : 0.0}; }
 
  private:
   static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
@@ -110,7 +102,7 @@ class PairChecker {
   bool canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result);
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
   void test(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, double given_error,
-            double margin, PairResult& result);
+            PairResult& result);
   // Of a pair whose bodies rest relative to each other:
   Isometry3d poseAtRest() const;
   RestingAnswers::Bodies restingBodies() const;
@@ -119,30 +111,23 @@ class PairChecker {
   std::shared_ptr<const RestingAnswer> findAtRest(const Isometry3d& X_AB, double error,
                                                   const CycleRequest& request) const;
 
-  const RelativeMotion& relativeMotion() const { return surfaces_ ? surfaces_->motion() : roles_.front().motion(); }
+  const RelativeMotion& relativeMotion() const { return surfaces_->motion(); }
   void setMotion(const SweptBodies& bodies, const WaypointSpan& span);
-  void setRoles(const SweptBodies& bodies, const WaypointSpan& span);
-  double givenError(const CycleMotion& motion, const RelativeMotion& relative) const;
-  void setError(const ErrorBound& bound, double root, PairResult& result) const;
+  double givenError(const CycleMotion& motion) const;
   void setClear(double clearance, PairResult& result);
   SurfaceContacts surfaceContacts(PairResult& result);
   void setCrossing(const ContactPoint& crossing, PairResult& result);
   void setIncomplete(const ContactPoint& proof, const CycleMotion& motion, const CycleRequest& request,
                      PairResult& result);
   double greatestDepthOfContact() const;
-  void doubt(PairResult& result);
-  bool isCertain(const PairResult& result) const;
-  bool isDeep(const PairResult& result) const;
-  void keepInside(const PairResult& result);
   void findContainment();
-  bool clearBySurfaces(SurfacePair::Answer& answer, PairResult& result);
-  void setSurfaceError(double open_within, const ErrorBound& error, PairResult& result) const;
+  bool isClear(SurfacePair::Answer& answer, PairResult& result);
+  void setOpen(double open_within, PairResult& result) const;
   double ballClearance(const SweptBodies& bodies, const WaypointSpan& span) const;
-  void cutMotion(PairResult& result);
-  void describe(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
-                const SurfacePair::Answer& by_surfaces, PairResult& result);
-  void findContacts(const CycleMotion& motion, const CycleRequest& request, const std::optional<ContactPoint>& crossing,
-                    PairResult& result);
+  void describe(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, double given_error,
+                const std::optional<ContactPoint>& crossing, PairResult& result);
+  void findContacts(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
+                    double given_error, const std::optional<ContactPoint>& crossing, PairResult& result);
 
   const Scene& scene_;
   const PlannedPair& pair_;
@@ -150,17 +135,16 @@ class PairChecker {
   const MonitorOptions& options_;
   RestingAnswers* resting_;    // null: every cycle is tested
   bool balls_contain_bodies_;  // the bodies' balls contain all of them
-  bool open_;                  // a point inside some field may be outside its body
   PairRoles roles_;
-  std::optional<SurfacePair> surfaces_;          // if triangles decide
+  std::optional<SurfacePair> surfaces_;          // none: the pair cannot be checked
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
-  ErrorBound bound_;                             // of field and gap
+  ErrorBound contact_bound_;                     // of field and gap
 
   // At the last cycle's end:
   bool outside_ = false;                            // neither body has a component wholly inside the other
   std::optional<SurfacePair::InsidePoint> inside_;  // the surfaces are apart
   double clearance_ = kUnknown;                     // lower bound of their distance [m]
-  Isometry3d X_FP_last_ = Isometry3d::Identity();   // of surfaces_ or the first role; valid if one of these is known
+  Isometry3d X_FP_last_ = Isometry3d::Identity();   // valid if one of these is known
   std::optional<Untold> untold_;
   std::optional<Isometry3d> X_AB_as_it_came_;  // there the answer depends on the motion before
 

@@ -10,7 +10,6 @@
 #include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
-#include "query/shell_distance.h"
 #include "query/surfaces/moving_boxes.h"
 #include "query/surfaces/plane_separation.h"
 #include "query/surfaces/surface_distance.h"
@@ -39,7 +38,9 @@ double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometr
 }  // namespace
 
 PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
-    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
+    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {
+  for (const Body& body : scene_->bodies) half_spaces_.push_back(halfSpacesOf(body));
+}
 
 void PairDistances::forget() {
   if (is_empty_) return;
@@ -119,10 +120,9 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
       !found.is_with_map && motion.X_WB[result.body_a].size() == 1 && motion.X_WB[result.body_b].size() == 1;
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
-  const bool is_exact = trianglesDecide(*scene_, scene_->pairs[i]);
-  const bool is_within = (is_exact || !touches) && findNearest(i, X_WA, X_WB, range, found);
+  const bool is_within = findNearest(i, X_WA, X_WB, range, found);
   if (touches && is_within && isOneInside(found, X_WA, X_WB)) found.distance = 0.0;
-  // Bodies that touched may have separated before the end of the span; triangles tell that exactly. They can have moved
+  // Bodies that touched may have separated before the end of the span. They can have moved
   // `gone` apart at most: a larger distance of the surfaces means that one body is inside the other.
   const double gone =
       touches ? result.contact_error.total() + travelSince(result.intervals.back().exit, motion, result) : 0.0;
@@ -132,7 +132,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     found.slab.reset();
     pair.is_known = false;
     const bool is_with_plane = !scene_->bodies[result.body_a].triangles || !scene_->bodies[result.body_b].triangles;
-    if (!(is_exact && is_within && is_with_plane)) {
+    if (!(is_within && is_with_plane)) {
       found.p_A_W = found.p_B_W = result.deepest.p_W;
       found.normal_W = result.deepest.normal_W;
     }
@@ -157,15 +157,26 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
                                 PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
-  if (trianglesDecide(a, b)) return nearestOfSurfaces(i, X_WA, X_WB, range, found);
-  // A body without a shell has only one point per component, which gives no useful distance: the other body has a
-  // shell.
   bool is_within = false;
-  found.distance = std::numeric_limits<double>::infinity();
-  if (a.shell->size() > 0 && !b.parts.empty())
-    is_within |= nearestOfShell(pair.body_a, pair.body_b, true, X_WB, X_WA, range, found);
-  if (b.shell->size() > 0 && !a.parts.empty())
-    is_within |= nearestOfShell(pair.body_b, pair.body_a, false, X_WA, X_WB, range, found);
+  if (a.triangles && b.triangles) is_within = nearestOfSurfaces(i, X_WA, X_WB, range, found);
+  const bool plane_is_a = hasHalfSpace(a);
+  for (const BodyHalfSpace& plane : half_spaces_[static_cast<std::size_t>(plane_is_a ? pair.body_a : pair.body_b)]) {
+    PairDistance of_plane = found;
+    of_plane.slab.reset();
+    if (!(plane_is_a ? nearestOfPlane(i, true, plane, X_WA, X_WB, range, of_plane)
+                     : nearestOfPlane(i, false, plane, X_WB, X_WA, range, of_plane)))
+      continue;
+    if (is_within) {
+      // No slab separates the body from both.
+      const double low = std::min(found.distance - found.error, of_plane.distance - of_plane.error);
+      if (of_plane.distance < found.distance) std::swap(found, of_plane);
+      found.error = std::max(found.error, found.distance - low);
+      found.slab.reset();
+    } else {
+      found = of_plane;
+    }
+    is_within = true;
+  }
   return is_within;
 }
 
@@ -179,12 +190,11 @@ bool PairDistances::isOneInside(const PairDistance& found, const Isometry3d& X_W
 }
 
 /// The lowest point of a body above a half-space, and its foot on the plane.
-bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
-                                   double range, PairDistance& found) {
+bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const BodyHalfSpace& plane, const Isometry3d& X_WF,
+                                   const Isometry3d& X_WP, double range, PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
-  const BodyHalfSpace plane = halfSpaceOf(scene_->bodies[plane_is_a ? pair.body_a : pair.body_b]);
   const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
-  const double deviation = verdictBound(*scene_, pair).total() + plane.deviation;
+  const double deviation = deviationOf(*scene_, pair) + plane.deviation;
   const Isometry3d X_FP = relativePose(X_WF, X_WP);
   const double accuracy =
       kTriangleError * surface.ball().radius + heightRounding(plane.half_space, surface, {X_FP, X_FP});
@@ -221,11 +231,9 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
                                       PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
-  if (!body_a.triangles) return nearestOfPlane(i, true, X_WA, X_WB, range, found);
-  if (!body_b.triangles) return nearestOfPlane(i, false, X_WB, X_WA, range, found);
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
   const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
-  const double deviation = verdictBound(*scene_, pair).total();
+  const double deviation = deviationOf(*scene_, pair);
   const double error =
       deviation + kTriangleError * (a.ball().radius + b.ball().radius) + triangleRounding(a, b, {X_AB, X_AB});
   const double moved = measureSurfaces(i, X_AB, range + error);
@@ -241,40 +249,6 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
   if (nearest->distance > 0.0) found.normal_W = displacement / nearest->distance;
   if (slab && *slab - moved > deviation) found.slab = ClosingGap{*slab - moved - deviation, 0.0, 0.0};
   return true;
-}
-
-/// Updates `found` with the nearest point of the shell, if it is nearer.
-bool PairDistances::nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF,
-                                   const Isometry3d& X_WP, double range, PairDistance& found) {
-  const Body &p = scene_->bodies[shell_body], &f = scene_->bodies[field_body];
-  const double gap = p.shell->covering_radius;
-  bool is_within = false;
-  for (const BodyPart& part : f.parts) {
-    const Isometry3d X_GP = part.X_BG.inverse() * relativePose(X_WF, X_WP);
-    const double limit = std::min(range + gap, found.distance + found.error);
-    const ShellDistance nearest = shellDistance(part.field, p.shell, p.tree, X_GP, limit, pending_);
-    if (nearest.point < 0) continue;
-    is_within = true;
-    if (nearest.value >= found.distance) {
-      found.error = std::max(found.error, found.distance - (nearest.value - nearest.error - gap));
-      continue;
-    }
-    const double low = std::min(nearest.value - nearest.error - gap, found.distance - found.error);
-    found.distance = std::max(0.0, nearest.value);
-    found.error = std::max(nearest.error + p.shell->position_error, found.distance - low);
-    const Vector3d on_p = X_WF * (part.X_BG * nearest.p_F);
-    const double slope = nearest.gradient_F.norm();
-    const Vector3d out_W = slope > 0.0 ? Vector3d(X_WF.linear() * (part.X_BG.linear() * (nearest.gradient_F / slope)))
-                                       : Vector3d(Vector3d::Zero());
-    const Vector3d on_f = on_p - nearest.value * out_W;
-    found.p_A_W = shell_is_a ? on_p : on_f;
-    found.p_B_W = shell_is_a ? on_f : on_p;
-    found.normal_W = shell_is_a ? Vector3d(-out_W) : out_W;
-  }
-  if (is_within && isHalfSpace(f)) {
-    found.slab = ClosingGap{std::max(0.0, found.distance - found.error), 0.0, 0.0};
-  }
-  return is_within;
 }
 
 /// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.

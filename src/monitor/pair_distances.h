@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "body_half_space.h"
 #include "query/surfaces/separation.h"
 #include "query/surfaces/surface_distance.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -43,9 +44,8 @@ struct PairDistance {
   std::optional<ClosingGap> slab;  ///< along the normal, if a separating slab between the bodies is known
 };
 
-/// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest. If
-/// triangles decide the pair, the distance is exact up to Body::triangles' deviation; otherwise it is measured from the
-/// points of one body's shell to the other body's field, with the error of the field and the gap between points.
+/// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest: exact up to the
+/// deviation of Body::triangles.
 ///
 /// A pair that cannot have come within range since it was last measured costs some nanoseconds per cycle, another one
 /// some microseconds. Memory is allocated only if more pairs are near each other than ever before.
@@ -104,10 +104,8 @@ class PairDistances {
                          PairDistance& found);
   double measureSurfaces(std::size_t pair, const Isometry3d& X_AB, double limit);
   bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
-  bool nearestOfPlane(std::size_t pair, bool plane_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP, double range,
-                      PairDistance& found);
-  bool nearestOfShell(int shell_body, int field_body, bool shell_is_a, const Isometry3d& X_WF, const Isometry3d& X_WP,
-                      double range, PairDistance& found);
+  bool nearestOfPlane(std::size_t pair, bool plane_is_a, const BodyHalfSpace& plane, const Isometry3d& X_WF,
+                      const Isometry3d& X_WP, double range, PairDistance& found);
 
   /// Motion of P relative to F from the waypoint before `last` to `last`.
   struct Step {
@@ -121,13 +119,13 @@ class PairDistances {
                  PairDistance& found) const;
 
   std::shared_ptr<const Scene> scene_;
+  std::vector<std::vector<BodyHalfSpace>> half_spaces_;  // per body
   std::vector<Pair> pairs_;
   std::vector<PairDistance> near_;
   std::chrono::nanoseconds origin_{0};  // of the last cycle
   bool has_unknown_ = false;
   bool is_empty_ = true;  // nothing is stored
   SeparationMemory memory_;
-  std::vector<int> pending_;
 };
 
 }  // namespace sdf_ccd

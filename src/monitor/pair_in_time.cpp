@@ -23,13 +23,15 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
       motion_error_ += bodies.poseError(body, ball.center.norm() + ball.radius);  // of a point that lies in both
     }
   } else {
-    setRoles(bodies, result.span);
-    apart = roles_.ballClearance();
+    surfaces_->setMotion(bodies, result.span, memory_->bounds);
+    const RelativeMotion& relative = surfaces_->motion();
+    motion_error_ = relative.poseError();
+    apart = surfaces_->ballClearance(relative.start()) - relative.travel();
   }
-  motion_error_ += givenError(motion, roles_.front().motion());
+  motion_error_ += givenError(motion);
   result.error = bound();
   result.error.chord = motion_error_;
-  if (balls_contain_bodies_ && apart > this->margin() + motion_error_ + margin) {
+  if (balls_contain_bodies_ && apart > motion_error_ + margin) {
     remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
     setClear(apart, result);
     result.skipped = outside_ = true;
@@ -77,8 +79,7 @@ void PairChecker::setIncomplete(const ContactPoint& proof, const CycleMotion& mo
 
 /// Upper bound of the depth of any point of one body in the other, at any time of the motion [m].
 double PairChecker::greatestDepthOfContact() const {
-  const double errors = bound_.field + motion_error_;
-  if (!surfaces_) return errors - roles_.ballClearance();
+  const double errors = contact_bound_.field + motion_error_;
   if (surfaces_->isWithHalfSpace())
     return errors + surfaces_->deviation() + surfaces_->motion().travel() -
            surfaces_->ballClearance(surfaces_->motion().start());

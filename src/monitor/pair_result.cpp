@@ -20,12 +20,12 @@ void clear(PairResult& result) {
   result.peaks.clear();
 }
 
-void setSkipped(const ErrorBound& error, double clearance, PairResult& result) {
+void setSkipped(const ErrorBound& error, PairResult& result) {
   clear(result);
   result.verdict = Verdict::kClear;
   result.skipped = true;
   result.error = error;
-  result.clearance = clearance;
+  result.clearance = 0.0;
 }
 
 bool isTimed(const PairResult& pair) {

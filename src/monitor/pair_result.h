@@ -10,8 +10,8 @@ namespace sdf_ccd {
 /// Resets the result, but keeps its span and its allocated memory.
 void clear(PairResult& result);
 
-/// Sets the result of a pair that is clear without a test. @param clearance  lower bound of its distance [m].
-void setSkipped(const ErrorBound& error, double clearance, PairResult& result);
+/// Sets the result of a pair that is clear without a test.
+void setSkipped(const ErrorBound& error, PairResult& result);
 
 /// Whether the pair's intervals and wrenches are known: they are not if an incomplete contact is only proved.
 bool isTimed(const PairResult& pair);

@@ -20,7 +20,7 @@ std::size_t bytesOf(const TriangleMesh& mesh) {
 
 /// Of all that it has, also what it shares with others: reports count that for one of them.
 std::size_t bytesOf(const Body& body) {
-  std::size_t bytes = bytesOf(body.shell, body.tree) + bytesOf(body.witnesses, body.witness_tree);
+  std::size_t bytes = bytesOf(body.shell, body.tree);
   for (const BodyPart& part : body.parts) bytes += part.field.bytes();
   if (body.surface) bytes += bytesOf(body.surface->mesh) + body.surface->tree.bytes();
   if (body.triangles) bytes += body.triangles->bytes();
@@ -31,22 +31,11 @@ std::size_t bytesOf(const Body& body) {
 /// Whether a body that was prepared with these needs also has all that `wanted` requires.
 bool cover(const BodyNeeds& mine, const BodyNeeds& wanted) {
   const auto has = [&](auto need) { return mine.*need || !(wanted.*need); };
-  return has(&BodyNeeds::field) && has(&BodyNeeds::shell) && has(&BodyNeeds::witnesses) && has(&BodyNeeds::triangles) &&
-         has(&BodyNeeds::surface) &&
-         (!wanted.shell || ((!mine.edges_only || wanted.edges_only) && has(&BodyNeeds::decides)));
+  return has(&BodyNeeds::field) && has(&BodyNeeds::shell) && has(&BodyNeeds::triangles) && has(&BodyNeeds::surface);
 }
 
 BodyNeeds unite(const BodyNeeds& a, const BodyNeeds& b) {
-  BodyNeeds all;
-  all.field = a.field || b.field;
-  all.shell = a.shell || b.shell;
-  // Edges suffice only if everyone who needs a shell needs only its edges.
-  all.edges_only = all.shell && (!a.shell || a.edges_only) && (!b.shell || b.edges_only);
-  all.decides = (a.shell && a.decides) || (b.shell && b.decides);
-  all.witnesses = a.witnesses || b.witnesses;
-  all.triangles = a.triangles || b.triangles;
-  all.surface = a.surface || b.surface;
-  return all;
+  return {a.field || b.field, a.shell || b.shell, a.triangles || b.triangles, a.surface || b.surface};
 }
 
 }  // namespace

@@ -12,9 +12,7 @@ std::uint64_t keyOf(int a, int b) {
 }
 
 bool sameTests(const PlannedPair& a, const PlannedPair& b) {
-  return a.a_shell_b_field == b.a_shell_b_field && a.b_shell_a_field == b.b_shell_a_field &&
-         a.a_edges_only == b.a_edges_only && a.b_edges_only == b.b_edges_only &&
-         a.a_witnesses_b_field == b.a_witnesses_b_field && a.b_witnesses_a_field == b.b_witnesses_a_field;
+  return a.a_shell_b_field == b.a_shell_b_field && a.b_shell_a_field == b.b_shell_a_field;
 }
 
 }  // namespace

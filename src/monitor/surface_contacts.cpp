@@ -22,7 +22,7 @@ void SurfaceContacts::add(ContactPoint crossing) {
   setTimes(intervals, crossing);
   if (of_points == 0) result_.deepest = crossing;
   if (intervals.size() > of_points) result_.peaks.push_back(crossing);
-  if (surfaces_) addCrossings(*surfaces_, motion_error_, memory_, intervals, result_.peaks);
+  addCrossings(surfaces_, motion_error_, memory_, intervals, result_.peaks);
   // Points that only touch, and crossings between points, do not tell how deep the bodies are.
   if (!(result_.deepest.depth > 0.0)) boundHiddenDepth(result_.deepest);
   for (ContactPoint& peak : result_.peaks)
@@ -34,7 +34,7 @@ void SurfaceContacts::completePeaks() {
     const Interval interval = result_.intervals[i];
     if (deepestWithin(result_, interval)) continue;
     for (const double time : {interval.exit, 0.5 * (interval.enter + interval.exit), interval.enter}) {
-      const std::optional<ContactPoint> crossing = surfaces_->crossingAt(time, motion_error_, memory_);
+      const std::optional<ContactPoint> crossing = surfaces_.crossingAt(time, motion_error_, memory_);
       if (!crossing) continue;
       result_.peaks.push_back(*crossing);
       boundHiddenDepth(result_.peaks.back());

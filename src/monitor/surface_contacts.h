@@ -8,10 +8,9 @@ namespace sdf_ccd {
 /// show neither when the contact lasts nor how deep it is.
 class SurfaceContacts {
  public:
-  /// @param surfaces      null if triangles do not decide the pair.
   /// @param motion_error  see SurfacePair::decide().
   /// @param result        is completed; its contact_error must be set.
-  SurfaceContacts(const Scene& scene, const PlannedPair& pair, SurfacePair* surfaces, double motion_error,
+  SurfaceContacts(const Scene& scene, const PlannedPair& pair, SurfacePair& surfaces, double motion_error,
                   SeparationMemory& memory, PairResult& result)
       : scene_(scene),
         pair_(pair),
@@ -24,8 +23,7 @@ class SurfaceContacts {
   /// lasts, one body is inside the other all that time.
   void add(ContactPoint crossing);
 
-  /// Looks for a crossing in intervals without a point, such as those of which only the first touch is known. The pair
-  /// must have surfaces.
+  /// Looks for a crossing in intervals without a point, such as those of which only the first touch is known.
   void completePeaks();
 
  private:
@@ -33,7 +31,7 @@ class SurfaceContacts {
 
   const Scene& scene_;
   const PlannedPair& pair_;
-  SurfacePair* const surfaces_;
+  SurfacePair& surfaces_;
   const double motion_error_;
   SeparationMemory& memory_;
   PairResult& result_;

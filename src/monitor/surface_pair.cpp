@@ -57,7 +57,56 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
 
 /// Whether the first of two bodies is body F.
 bool isFirstF(const Body& a, const Body& b) {
-  return a.triangles && b.triangles ? a.ball.radius >= b.ball.radius : !a.triangles;
+  return hasHalfSpace(a) || hasHalfSpace(b) ? hasHalfSpace(a) : a.ball.radius >= b.ball.radius;
+}
+
+/// Calls visit(centroid) for triangles of the tree that may come within the ball, until it returns true.
+template <class Visit>
+bool forTrianglesNear(const BoxTree& tree, const BoundingBall& ball, const Visit& visit) {
+  std::vector<std::int32_t> nodes{tree.root().node};
+  while (!nodes.empty()) {
+    const BoxTree::Node& node = tree.node(nodes.back());
+    nodes.pop_back();
+    for (std::int32_t i = 0; i < node.count; ++i) {
+      const Vector3d center = tree.origin() + Vector3d(node.center[0][i], node.center[1][i], node.center[2][i]);
+      if ((center - ball.center).norm() > ball.radius + double(node.reach[i]) + double(node.radius[i])) continue;
+      if (!BoxTree::isTriangle(node.below[i])) {
+        nodes.push_back(node.below[i]);
+        continue;
+      }
+      const CornerPointers corners = tree.corners(BoxTree::triangleOf(node.below[i]));
+      if (visit(Vector3d((*corners[0] + *corners[1] + *corners[2]) / 3.0))) return true;
+    }
+  }
+  return false;
+}
+
+/// A point of `inner`'s surface inside `outer`, by more than `margin`; frame I.
+std::optional<Vector3d> pointInside(const Body& inner, const Body& outer, const Isometry3d& X_OI, double margin,
+                                    SeparationMemory& memory) {
+  constexpr int kMaxPoints = 32;
+  if (outer.inside_is_doubtful || !outer.triangles || !inner.triangles) return {};
+  const Isometry3d X_IO = X_OI.inverse();
+  std::optional<Vector3d> found;
+  int points = 0;
+  forTrianglesNear(inner.triangles->tree, {X_IO * outer.ball.center, outer.ball.radius}, [&](const Vector3d& p_I) {
+    const Vector3d p = X_OI * p_I;
+    if (isOutsideBox(outer.triangles->closedTree(), p)) return false;
+    checkCancelled();
+    if (outer.triangles->isInside(p)) {
+      const BoxTree point({{{p, p, p}, 0.0}});
+      SeparationOptions options;
+      options.margin = margin + kPoseEpsilon * (p.norm() + X_OI.translation().norm());
+      options.resolution = 0.1 * margin;
+      SeparationWitness witness;
+      const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
+      const TwoBodyMotion at_rest{0.0, 1.0, rest, rest, 0.0};
+      if (separation(outer.triangles->tree, point, at_rest, options, witness, memory).state == SeparationState::kApart)
+        found = p_I;
+    }
+    return found.has_value() || ++points >= kMaxPoints;
+  });
+  return found;
 }
 
 }  // namespace
@@ -67,11 +116,12 @@ SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double res
       motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a),
       field_(&scene.bodies[motion_.f()]),
       shell_(&scene.bodies[motion_.p()]),
-      deviation_(verdictBound(scene, pair).total()),
-      resolution_(resolution) {
-  if (field_->triangles) return;
-  plane_ = halfSpaceOf(*field_);
-  deviation_ += plane_->deviation;
+      deviation_(deviationOf(scene, pair)),
+      resolution_(resolution),
+      planes_(halfSpacesOf(*field_)) {
+  double of_planes = 0.0;
+  for (const BodyHalfSpace& plane : planes_) of_planes = std::max(of_planes, plane.deviation);
+  deviation_ += of_planes;
 }
 
 void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
@@ -83,8 +133,10 @@ void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
 
 double SurfacePair::ballClearance(const Isometry3d& X_FP) const {
   const Vector3d center_F = X_FP * shell_->ball.center;
-  const double to_f = plane_ ? plane_->half_space.normal.dot(center_F) - plane_->half_space.offset
-                             : (center_F - field_->ball.center).norm() - field_->ball.radius;
+  double to_f = kInfinity;
+  for (const BodyHalfSpace& plane : planes_)
+    to_f = std::min(to_f, plane.half_space.normal.dot(center_F) - plane.half_space.offset);
+  if (field_->triangles) to_f = std::min(to_f, (center_F - field_->ball.center).norm() - field_->ball.radius);
   return to_f - shell_->ball.radius;
 }
 
@@ -99,7 +151,7 @@ SurfacePair::Answer SurfacePair::decide(double motion_error, SeparationMemory& m
 
 /// The same by the triangles. @param margin  the motion's error and the deviation of the triangles [m].
 SurfacePair::Answer SurfacePair::decideNear(double margin, SeparationMemory& memory) {
-  if (plane_) {
+  if (isWithHalfSpace()) {
     Answer answer = decideBy(false, margin, memory);
     if (answer.crossing && isBelowThroughout(margin, memory)) {
       answer.crossing->enter = motion_.motion(0).t_start;
@@ -107,7 +159,7 @@ SurfacePair::Answer SurfacePair::decideNear(double margin, SeparationMemory& mem
     }
     return answer;
   }
-  const bool has_caps = field_->triangles->closed || shell_->triangles->closed;
+  const bool has_caps = (field_->triangles && field_->triangles->closed) || shell_->triangles->closed;
   if (!has_caps) return decideBy(false, margin, memory);
   // Apart including the caps that close openings: nothing has entered through an opening.
   const Answer closed = decideBy(true, margin, memory);
@@ -122,16 +174,31 @@ Separation SurfacePair::test(bool closed, const TwoBodyMotion& motion, const Sep
   checkCancelled();  // a short search does not check
   SeparationWitness& witness = closed ? closed_witness_ : witness_;
   const BodyTriangles& p = *shell_->triangles;
-  if (plane_) {
+  std::optional<Separation> all;
+  const auto add = [&](const Separation& found) {
+    if (!all || found.state == SeparationState::kCrossing) {
+      all = found;
+      return;
+    }
+    all->distance = std::min(all->distance, found.distance);
+    all->tests += found.tests;
+    all->open_within = kInfinity;
+    if (found.state == SeparationState::kOpen) all->state = SeparationState::kOpen;
+  };
+  found_plane_ = false;
+  for (const BodyHalfSpace& plane : planes_) {
     SeparationOptions limited = options;
     limited.max_tests = poses_left_;
-    const Separation found = planeSeparation(plane_->half_space, p.tree, motion, limited, witness, memory);
-    poses_left_ = std::max(0, poses_left_ - found.tests);
-    return found;
+    add(planeSeparation(plane.half_space, p.tree, motion, limited, witness, memory));
+    poses_left_ = std::max(0, poses_left_ - all->tests);
+    found_plane_ = all->state == SeparationState::kCrossing;
+    if (found_plane_) return *all;
   }
+  if (!field_->triangles) return *all;
   const BodyTriangles& f = *field_->triangles;
-  return closed ? separation(f.closedTree(), p.closedTree(), motion, options, witness, memory)
-                : separation(f.tree, p.tree, motion, options, witness, memory);
+  add(closed ? separation(f.closedTree(), p.closedTree(), motion, options, witness, memory)
+             : separation(f.tree, p.tree, motion, options, witness, memory));
+  return *all;
 }
 
 /// Looks closer at surfaces that graze each other within the resolution. Those are rare, so that a much finer one costs
@@ -141,7 +208,7 @@ Separation SurfacePair::testCloser(bool closed, const TwoBodyMotion& motion, Sep
   constexpr double kFiner = 0.02;
   constexpr int kMaxTests = 2000;
   Separation found = test(closed, motion, options, memory);
-  if (plane_ || found.open_within == kInfinity || found.tests >= options.max_tests) return found;
+  if (isWithHalfSpace() || found.open_within == kInfinity || found.tests >= options.max_tests) return found;
   options.resolution *= kFiner;
   options.max_tests = std::min(kMaxTests, options.max_tests - found.tests);
   const Separation closer = test(closed, motion, options, memory);
@@ -176,13 +243,13 @@ SurfacePair::Answer SurfacePair::decideBy(bool closed, double margin, Separation
     distance = now ? found.distance : -kInfinity;
     if (now) continue;
     // What holds for a half-space must hold at all times, of others at any time.
-    answer.open_within = apart    ? found.open_within
-                         : plane_ ? std::max(answer.open_within, found.open_within)
-                                  : std::min(answer.open_within, found.open_within);
+    answer.open_within = apart               ? found.open_within
+                         : isWithHalfSpace() ? std::max(answer.open_within, found.open_within)
+                                             : std::min(answer.open_within, found.open_within);
     apart = false;
     // A motion of many undecided steps takes no longer than a single one.
     options.max_tests -= found.tests;
-    if (!plane_ && options.max_tests <= 0) return answer;
+    if (!isWithHalfSpace() && options.max_tests <= 0) return answer;
   }
   if (!apart) return answer;
   answer.state = SeparationState::kApart;
@@ -203,7 +270,7 @@ bool SurfacePair::isBelowThroughout(double margin, SeparationMemory& memory) {
 bool SurfacePair::isBelow(const TwoBodyMotion& motion, double start, double end, double margin,
                           SeparationMemory& memory) {
   checkCancelled();
-  const HalfSpace& plane = plane_->half_space;
+  const HalfSpace& plane = planes_.front().half_space;
   const Isometry3d X_start = motion.X_FP(start);
   const LowestPoint lowest = lowestPoint(plane, shell_->triangles->tree, X_start, resolution_, witness_, memory);
   if (!(lowest.height < -margin) || --poses_left_ < 0) return false;
@@ -225,7 +292,7 @@ ContactPoint SurfacePair::contactAt(const Separation& found, std::size_t step, d
   Vector3d normal = X_WF.linear() * found.normal_A;
   // A single triangle does not tell the side: take the one where the other ball's centre lies.
   const Vector3d to_p = X_WP * shell_->ball.center - contact.p_W;
-  if (!plane_ && !(normal.dot(to_p) > 0.0)) normal = -normal;
+  if (!found_plane_ && !(normal.dot(to_p) > 0.0)) normal = -normal;
   contact.normal_W = fromAToB(normal);
   return contact;
 }
@@ -244,7 +311,8 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
   return test(false, part, options, memory);
 }
 
-std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
+/// The step during which a time of the motion is, and its share of the step.
+std::pair<std::size_t, double> SurfacePair::stepAt(double time) const {
   std::size_t first = 0;
   for (std::size_t last = motion_.steps() - 1; first < last;) {
     const std::size_t middle = (first + last) / 2;
@@ -255,11 +323,49 @@ std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_e
     }
   }
   const TwoBodyMotion step = motion_.motion(first);
-  const double share = std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0);
-  const Separation found = during(first, share, share, motion_error, memory);
+  return {first, std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0)};
+}
+
+std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
+  const auto [step, share] = stepAt(time);
+  const Separation found = during(step, share, share, motion_error, memory);
   if (found.state != SeparationState::kCrossing) return std::nullopt;
-  ContactPoint contact = contactAt(found, first, share);
+  ContactPoint contact = contactAt(found, step, share);
   contact.time = contact.enter = contact.exit = time;  // without the rounding of its share
+  return contact;
+}
+
+std::optional<ContactPoint> SurfacePair::findContact(double motion_error, SeparationMemory& memory) {
+  constexpr int kParts = 16;
+  const double start = motion_.motion(0).t_start, end = motion_.motion(motion_.steps() - 1).t_end;
+  const double margin = motion_error + deviation_ + kTimeRounding * motion_.reach();
+  const auto at = [&](int part) -> std::optional<ContactPoint> {
+    const double time = part == kParts ? end : start + (end - start) * part / kParts;
+    if (auto crossing = crossingAt(time, motion_error, memory)) return crossing;
+    return deepContact(time, margin, memory);
+  };
+  for (const int part : {kParts, 0})
+    if (auto contact = at(part)) return contact;
+  if (motion_.travel() <= resolution_) return std::nullopt;
+  for (int stride = kParts / 2; stride > 0; stride /= 2)
+    for (int part = stride; part < kParts; part += 2 * stride)
+      if (auto contact = at(part)) return contact;
+  return std::nullopt;
+}
+
+std::optional<ContactPoint> SurfacePair::deepContact(double time, double margin, SeparationMemory& memory) const {
+  const auto [step, share] = stepAt(time);
+  const TwoBodyMotion motion = motion_.motion(step);
+  const Isometry3d X_WF = motion.X_WF.pose(share), X_WP = motion.X_WP.pose(share);
+  const Isometry3d X_FP = relativePose(X_WF, X_WP);
+  const std::optional<Vector3d> p_P = pointInside(*shell_, *field_, X_FP, margin, memory);
+  const std::optional<Vector3d> p_F =
+      p_P ? std::nullopt : pointInside(*field_, *shell_, X_FP.inverse(), margin, memory);
+  if (!p_P && !p_F) return std::nullopt;
+  ContactPoint contact;
+  contact.enter = contact.exit = contact.time = time;
+  contact.p_W = p_P ? X_WP * *p_P : X_WF * *p_F;
+  contact.normal_W = normalByBalls(X_WF, X_WP);
   return contact;
 }
 
@@ -294,7 +400,7 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
 }
 
 SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP, int attempt) const {
-  if (plane_) return {true, std::nullopt};
+  if (!field_->triangles) return {true, std::nullopt};
   std::optional<Vector3d> p_P, p_F;
   const bool excluded = componentsAreOutside(*shell_, *field_, X_FP, attempt, p_P) &&
                         componentsAreOutside(*field_, *shell_, X_FP.inverse(), attempt, p_F);
@@ -303,15 +409,20 @@ SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP, int at
   return found;
 }
 
+/// From A to B, as the bodies' balls lie.
+Vector3d SurfacePair::normalByBalls(const Isometry3d& X_WF, const Isometry3d& X_WP) const {
+  const Vector3d displacement = X_WP * shell_->ball.center - X_WF * field_->ball.center;
+  return fromAToB(displacement.norm() > 0.0 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::UnitZ()));
+}
+
 ContactPoint SurfacePair::contactInside(const InsidePoint& inside) const {
   const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
   const Isometry3d X_WF = last.X_WF.pose(1.0), X_WP = last.X_WP.pose(1.0);
-  const Vector3d way = X_WP * shell_->ball.center - X_WF * field_->ball.center;
   ContactPoint contact;
   contact.enter = motion_.motion(0).t_start;
   contact.time = contact.exit = last.t_end;
   contact.p_W = (inside.is_of_p ? X_WP : X_WF) * inside.p;
-  contact.normal_W = fromAToB(way.norm() > 0.0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitZ()));
+  contact.normal_W = normalByBalls(X_WF, X_WP);
   return contact;
 }
 

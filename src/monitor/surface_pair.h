@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "body/body_triangles.h"
 #include "body_half_space.h"
@@ -10,11 +12,11 @@
 
 namespace sdf_ccd {
 
-/// Decides a pair by the triangles of both bodies, exactly up to the errors of the motions (design §3.17): whether
-/// their surfaces stay apart or certainly cross. One of them may be a half-space.
+/// Decides a pair by the surfaces of both bodies, exactly up to the errors of the motions (design §3.17): whether they
+/// stay apart or certainly cross. One body may have half-spaces, instead of triangles or as well.
 class SurfacePair {
  public:
-  /// The pair must satisfy trianglesDecide().
+  /// The pair must satisfy haveSurfaces().
   /// @param resolution  surfaces closer than this may remain undecided [m].
   SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution);
 
@@ -25,7 +27,8 @@ class SurfacePair {
   /// Of the smaller body relative to the larger one, or to the half-space.
   const RelativeMotion& motion() const { return motion_; }
 
-  bool isWithHalfSpace() const { return plane_.has_value(); }
+  /// Whether there is nothing but a single half-space on one side.
+  bool isWithHalfSpace() const { return planes_.size() == 1 && !field_->triangles; }
 
   /// Upper bound of the distance between the triangles, or plane, and the true surfaces, both bodies together [m].
   double deviation() const { return deviation_; }
@@ -88,10 +91,10 @@ class SurfacePair {
   /// it is inside all the time.
   ContactPoint contactInside(const InsidePoint& inside) const;
 
-  /// Whether it is doubtful which points lie outside, or inside, one of the bodies. Then only the surfaces prove CLEAR
-  /// (they are apart, and seen from the outside) or CONTACT (they cross).
-  bool isOutsideDoubtful() const { return !plane_ && (field_->doubtful || shell_->doubtful); }
-  bool isInsideDoubtful() const { return !plane_ && (field_->inside_is_doubtful || shell_->inside_is_doubtful); }
+  /// Looks at up to 17 times of the motion for a certain contact: a crossing, or a point of one body's surface inside
+  /// the other, deeper than all errors. decide() may find none where surfaces also graze each other, or cross without
+  /// an edge that certainly pierces a triangle: bricks whose sides are flush. Empty if none is found.
+  std::optional<ContactPoint> findContact(double motion_error, SeparationMemory& memory);
 
  private:
   Vector3d fromAToB(const Vector3d& from_f_to_p) const { return f_is_a_ ? from_f_to_p : Vector3d(-from_f_to_p); }
@@ -105,14 +108,18 @@ class SurfacePair {
   bool isBelow(const TwoBodyMotion& motion, double start, double end, double margin, SeparationMemory& memory);
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
+  Vector3d normalByBalls(const Isometry3d& X_WF, const Isometry3d& X_WP) const;
+  std::pair<std::size_t, double> stepAt(double time) const;
+  std::optional<ContactPoint> deepContact(double time, double margin, SeparationMemory& memory) const;
 
   bool f_is_a_;
   RelativeMotion motion_;
-  const Body *field_, *shell_;          // bodies F and P; P is the smaller one, or F the half-space
-  std::optional<BodyHalfSpace> plane_;  // F, if it is a half-space
+  const Body *field_, *shell_;  // bodies F and P; P is the smaller one, or F the half-space
   double deviation_;
   double resolution_;
-  int poses_left_ = 0;  // that may be tested against a half-space in this motion
+  std::vector<BodyHalfSpace> planes_;  // of F
+  int poses_left_ = 0;                 // that may be tested against a half-space in this motion
+  bool found_plane_ = false;           // the last crossing is with a half-space
   SeparationWitness witness_, closed_witness_;
 };
 

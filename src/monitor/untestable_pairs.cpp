@@ -5,17 +5,18 @@
 
 #include "common/counted.h"
 #include "model/name_pair.h"
+#include "pair_bound.h"
 
 namespace sdf_ccd {
 
-const char* const kNotTestable = "neither has a surface that can be sampled, as both have voxels or half-spaces";
+const char* const kNotTestable = "both have half-spaces";
 
 std::string warnOfUntestable(Scene& scene) {
   constexpr std::size_t kNamed = 4;  // of possibly very many tiles of a map
   std::vector<std::string> names;
   for (const PlannedPair& pair : scene.pairs) {
     const bool are_checkable = scene.bodies[pair.body_a].failure.empty() && scene.bodies[pair.body_b].failure.empty();
-    if (!pair.isTestable() && are_checkable) names.push_back(pairName(scene, pair));
+    if (!haveSurfaces(scene, pair) && are_checkable) names.push_back(pairName(scene, pair));
   }
   if (names.empty()) return {};
   const std::string warning =

@@ -6,7 +6,7 @@
 
 namespace sdf_ccd {
 
-/// Why a pair without any test (PlannedPair::isTestable()) is NOT_CHECKED, if nothing else is the reason.
+/// Why a pair that is not haveSurfaces() is NOT_CHECKED, if nothing else is the reason.
 extern const char* const kNotTestable;
 
 /// Adds a warning to the scene, whose bodies must be set, that names the pairs that are never checked for that reason,

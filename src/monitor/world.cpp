@@ -16,7 +16,6 @@
 #include "monitor/plan/surface_needs.h"
 #include "prepared_bodies.h"
 #include "sdf_ccd/common/cancel.h"
-#include "surface_crossing.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {
@@ -62,10 +61,8 @@ std::vector<PreparedBody*> bodiesFor(const SceneDescription& description, SceneP
   };
   for (std::size_t b = 0; b < count; ++b) prepare(b);
   for (std::size_t b = 0; b < count; ++b) prepare(b);  // a body of equal geometry may have replaced one since
-  const auto isOpen = [&](int b) { return prepared[b] && isInsideUncertain(*prepared[b]->body); };
-  const std::vector<bool> surfaces = needSurface(description, plan.pairs, isOpen);
   for (std::size_t b = 0; b < count; ++b) {
-    if (!surfaces[b] || !prepared[b]) continue;
+    if (!needsSurface(description, description.bodies[b]) || !prepared[b]) continue;
     plan.needs[b].surface = true;
     prepare(b);
   }
@@ -140,7 +137,7 @@ SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description,
     const bool has_mesh = std::any_of(body.geometry.begin(), body.geometry.end(), [](const GeometryDescription& part) {
       return !std::holds_alternative<Primitive>(part.shape) && !part.field;
     });
-    const bool is_large_primitive = !has_mesh && needs.shell && !needs.edges_only;
+    const bool is_large_primitive = !has_mesh && needs.shell;
     if (!has_mesh && !is_large_primitive) continue;  // their cost is negligible
     missing.bodies.push_back(body);
     missing_plan.needs.push_back(needs);

@@ -23,7 +23,7 @@ class ShellPoints {
         options_(options),
         result_(result),
         work_(threadWork()),
-        batched_(!field.primitive() && !options.any) {}
+        batched_(!field.primitive()) {}
 
   /// Sets the chord of the points that follow.
   void begin(const Chord& chord, int index) {
@@ -70,8 +70,7 @@ class ShellPoints {
   }
 
   void querySingly(std::int32_t point, const Segment& segment) {
-    const SegmentOptions options{options_.sigma, options_.any ? SegmentMode::kAny : SegmentMode::kAll};
-    segmentIntervals(field_, segment, options, work_.intervals);
+    segmentIntervals(field_, segment, {options_.sigma}, work_.intervals);
     for (const Interval& interval : work_.intervals) result_.hits.push_back({point, index_, interval});
   }
 

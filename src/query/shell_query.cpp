@@ -38,14 +38,11 @@ class ShellSearch {
               const ShellQueryOptions& options, ShellQueryResult& result)
       : shell_(shell),
         nodes_(tree.nodes.data()),
-        options_(options),
         result_(result),
         work_(searchWork()),
         // A point's roots are those of the interpolated field; the spheres' test is about the true distance.
         sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma}, tree.nodes[0].ball()),
         points_(field, shell, options, result) {}
-
-  bool done() const { return options_.any && result_.touches(); }
 
   void follow(const Chord& chord, int index) {
     cancel_.check();
@@ -55,15 +52,13 @@ class ShellSearch {
     work_.stack.assign(1, 0);
     work_.pending.clear();
     testNode();  // enough for bodies that are far apart
-    while (!done()) {
+    while (!work_.stack.empty()) {
       cancel_.check();
-      if (!work_.pending.empty() && (options_.any || work_.stack.empty())) {
-        sides_.sortsPoints() ? sortPoints() : queryPoints();
-      } else if (!work_.stack.empty()) {
-        sides_.inVectors() ? testNodes() : testNode();
-      } else {
-        break;
-      }
+      sides_.inVectors() ? testNodes() : testNode();
+    }
+    while (!work_.pending.empty()) {
+      cancel_.check();
+      sides_.sortsPoints() ? sortPoints() : queryPoints();
     }
     points_.finish();
   }
@@ -88,7 +83,7 @@ class ShellSearch {
     group.size = 0;
     for (const std::int32_t i : tested) group.add(nodes_[i].center, nodes_[i].radius);
     sides_.testGroup();
-    for (std::size_t i = 0; i < count && !done(); ++i) take(tested[i], group.sideOf(static_cast<int>(i)));
+    for (std::size_t i = 0; i < count; ++i) take(tested[i], group.sideOf(static_cast<int>(i)));
   }
 
   void take(std::int32_t i, SweptSide side) {
@@ -118,18 +113,14 @@ class ShellSearch {
   }
 
   void addInside(std::int32_t begin, std::int32_t end, std::int32_t node = -1) {
-    if (options_.any) {
-      result_.hits.push_back({begin, index_, {0.0, 1.0}});
-    } else {
-      result_.inside.push_back({begin, end, index_, node});
-    }
+    result_.inside.push_back({begin, end, index_, node});
   }
 
   /// Queries the points of one range.
   void queryPoints() {
     const PointRange range = work_.pending.back();
     work_.pending.pop_back();
-    for (std::int32_t p = range.begin; p < range.end && !done(); ++p) points_.query(p);
+    for (std::int32_t p = range.begin; p < range.end; ++p) points_.query(p);
   }
 
   /// Tests points of several ranges as spheres of radius zero first, to query only those near the surface.
@@ -149,7 +140,7 @@ class ShellSearch {
     sides_.testGroup();
     int i = 0;
     for (const PointRange& range : sorted) {
-      for (std::int32_t p = range.begin; p < range.end && !done(); ++p, ++i) {
+      for (std::int32_t p = range.begin; p < range.end; ++p, ++i) {
         const SweptSide side = group.sideOf(i);
         if (side == SweptSide::kUnknown) points_.query(p);
         if (side == SweptSide::kInside) addInside(p, p + 1);
@@ -159,7 +150,6 @@ class ShellSearch {
 
   const PointShell& shell_;
   const SphereTree::Node* nodes_;
-  const ShellQueryOptions& options_;
   ShellQueryResult& result_;
   SearchWork& work_;
   SphereSides sides_;
@@ -195,9 +185,7 @@ void shellIntervals(const DistanceField& field, const PointShell& shell, const S
   checkIsovalue(field, options.sigma);
   if (tree.nodes.empty()) return;
   ShellSearch search(field, shell, tree, options, result);
-  for (std::size_t c = 0; c < path.chords.size() && !search.done(); ++c) {
-    search.follow(path.chords[c], static_cast<int>(c));
-  }
+  for (std::size_t c = 0; c < path.chords.size(); ++c) search.follow(path.chords[c], static_cast<int>(c));
 }
 
 double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,

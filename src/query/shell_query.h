@@ -18,7 +18,6 @@ struct ShellHit {
 
 struct ShellQueryOptions {
   double sigma = 0.0;  ///< isovalue [m]; std::invalid_argument unless within the field's band
-  bool any = false;    ///< stop at the first hit; its exit is not computed
 };
 
 /// Points [begin, end) of a shell that are inside along the whole chord.

@@ -149,25 +149,6 @@ SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& request
   return shell;
 }
 
-PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options) {
-  validate(mesh);
-  validate(options);
-  if (options.edge_gap == 0.0) throw std::invalid_argument("edge_gap must be positive to sample edges");
-  const TriangleMesh surface = welded(mesh);
-  const EdgeSampling sampling(options);
-  const std::vector<SurfaceEdge> edges = edgesOfFlatPieces(surface, sampling.flatness);
-  requireRoom({0.0, 0.0, length(edges), sampling.radius}, options);
-  SurfaceFiller filler(surface, options);
-  filler.addVertices();
-  filler.fillEdges(edges, sampling.radius);
-  SampledPoints shell = filler.take();
-  shell.areas.assign(shell.size(), 0.0F);
-  shell.covering_radius = kInfinity;
-  shell.edge_radius = sampling.radius;
-  shell.flatness = sampling.flatness;
-  return toShell(shell);
-}
-
 double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {
   validate(options);
   const TriangleMesh surface = welded(mesh);

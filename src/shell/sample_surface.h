@@ -24,11 +24,6 @@ class Solid;
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options);
 
-/// Only the points on vertices and edges, by options.edge_gap: no point represents an area, and the covering radius is
-/// infinite. They detect contacts, but give no force.
-/// @throws as sampleSurface(); std::invalid_argument also if the edge gap is 0.
-PointShell sampleEdges(const TriangleMesh& mesh, const ShellOptions& options);
-
 /// Approximate number of points that sampleSurface() takes, from areas and edges alone; few vertices are assumed. For
 /// many slivers within the spacing of each other, it is the number of points that would take as much time.
 /// sampleSurface() refuses at the start what is expected to take more than options.max_points.

@@ -9,16 +9,16 @@ namespace sdf_ccd::allocation_test {
 using namespace test;
 
 TEST(Allocation, NoneWhilePairsAreClear) {
-  const auto scene = build({groundWithoutSurface(), body("a", Primitive(Sphere{0.1})),
+  const auto scene = build({body("ground", ground(), true), body("a", Primitive(Sphere{0.1})),
                             body("b", Primitive(Box{{0.1, 0.1, 0.1}})), body("c", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, {});
   std::vector<CycleMotion> motions;
   for (int i = 0; i < 20; ++i) {
-    // Two bodies just above the error bound, so that they are tested every time, and one far away.
+    // Two bodies nearer to the ground than they move, so that they are tested every time, and one far away.
     const double x = 0.001 * i;
     motions.push_back(cycle(0.1, {still(Isometry3d::Identity()),
-                                  {translation({x, 0, 0.115}), translation({x + 1e-3, 0, 0.115})},
-                                  still(translation({-0.214, 0, 0.215})),
+                                  {translation({x, 0, 0.1003}), translation({x + 1e-3, 0, 0.1003})},
+                                  {translation({-0.25 - x, 0, 0.1003}), translation({-0.251 - x, 0, 0.1003})},
                                   still(translation({0, 3, 5}))}));
   }
   int tested = 0;

@@ -114,36 +114,23 @@ TriangleMesh crackedBox(double half, double crack) {
   return box;
 }
 
-/// Through a crack as wide as this one nothing can enter, but triangles do not know that: fields prove that the box is
-/// solid. A bead in it is in contact until it comes out, or is elsewhere in the next cycle.
-TEST(Containment, WhatFieldsFindInsideStaysInsideUntilItComesOut) {
-  constexpr double kHalf = 0.1, kCrack = 2e-5;
-  const TriangleMesh cracked = crackedBox(kHalf, kCrack);
+/// What is in a box with a crack may have come through the crack: it is never clear, until it comes out.
+TEST(Containment, WhatIsInABoxWithACrackIsNotClear) {
   const auto scene =
-      build({body("box", meshShape(cracked)), body("bead", meshShape(boxMesh({0.003, 0.003, 0.003})))}, coarse());
+      build({body("box", meshShape(crackedBox(0.1, 2e-5))), body("bead", meshShape(boxMesh({0.003, 0.003, 0.003})))},
+            coarse());
   ASSERT_TRUE(scene->bodies[0].doubtful);
-  ASSERT_FALSE(scene->bodies[0].inside_is_doubtful);
-  ASSERT_FALSE(scene->bodies[0].triangles->isInside({0, 0, 0}));
-  for (const bool wants_contacts : {false, true}) {
-    CycleRequest request;
-    request.contacts = request.wrenches = wants_contacts;
-    Monitor monitor(scene, soft());
-    const auto verdictOf = [&](const Vector3d& start, const Vector3d& end) {
-      return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation(start), translation(end)}}), request)
-          .verdict;
-    };
-    const Vector3d inside(0.01, 0, 0), farther(0.02, 0.05, 0.01), outside(0.02, 0.2, 0.01), above(0.02, 0.2, 0.5);
-    EXPECT_EQ(verdictOf(inside, farther), Verdict::kContact);
-    EXPECT_EQ(verdictOf(farther, inside), Verdict::kContact);
-    EXPECT_EQ(verdictOf(outside, outside), Verdict::kClear) << "a jump";
-    EXPECT_EQ(verdictOf(outside, above), Verdict::kClear);
-    EXPECT_EQ(verdictOf(inside, farther), Verdict::kContact) << "a jump back";
-    EXPECT_EQ(verdictOf(farther, outside), Verdict::kContact) << "through the surface";
-    EXPECT_EQ(verdictOf(outside, above), Verdict::kClear);
-    EXPECT_EQ(verdictOf(above, outside), Verdict::kClear);
-    EXPECT_EQ(verdictOf(outside, inside), Verdict::kContact);
-    EXPECT_EQ(verdictOf(inside, farther), Verdict::kContact);
-  }
+  Monitor monitor(scene, soft());
+  const auto verdictOf = [&](const Vector3d& start, const Vector3d& end) {
+    return monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {translation(start), translation(end)}}), {}).verdict;
+  };
+  const Vector3d inside(0.01, 0, 0), farther(0.02, 0.05, 0.01), outside(0.02, 0.2, 0.01), above(0.02, 0.2, 0.5);
+  EXPECT_EQ(verdictOf(inside, farther), Verdict::kUncertain);
+  EXPECT_EQ(verdictOf(outside, outside), Verdict::kClear) << "a jump";
+  EXPECT_EQ(verdictOf(outside, above), Verdict::kClear);
+  EXPECT_EQ(verdictOf(above, inside), Verdict::kContact) << "through the surface";
+  EXPECT_EQ(verdictOf(inside, farther), Verdict::kUncertain);
+  EXPECT_EQ(verdictOf(farther, outside), Verdict::kContact) << "through the surface";
 }
 
 /// Faces that are joined over a crack of some nanometres get no cap. What passes through it, a sheet without thickness,

@@ -112,22 +112,6 @@ TEST(OpenMesh, ARodThroughASheetIsAContact) {
   EXPECT_EQ(verdictAt(0.3).verdict, Verdict::kClear);
 }
 
-/// BodySurface is built only for pairs with an opening.
-TEST(OpenMesh, TrianglesAreKeptOnlyForPairsWithOpenings) {
-  const auto scene = test::build(
-      {test::body("ball", Primitive(Sphere{kBall})), test::body("bin", test::meshShape(test::binMesh(kHalf))),
-       test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true)},
-      coarse());
-  EXPECT_TRUE(scene->bodies[0].surface && scene->bodies[1].surface);
-  EXPECT_EQ(scene->bodies[1].surface->mesh.triangles.size(), 10U) << "caps are no surface";
-  EXPECT_FALSE(scene->bodies[2].surface);
-  EXPECT_EQ(scene->reports[1].warnings.size(), 2U);  // its uncertain inside, and its caps
-  const auto closed = test::build({test::body("ball", Primitive(Sphere{kBall})),
-                                   test::body("box", test::meshShape(test::boxMesh(Vector3d::Constant(kHalf))))},
-                                  coarse());
-  for (const Body& body : closed->bodies) EXPECT_FALSE(body.surface);
-}
-
 /// The shell samples the triangles of the bin, not its cap.
 TEST(OpenMesh, ShellsHaveNoPointsOnCaps) {
   const auto scene = test::build(

@@ -75,22 +75,19 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   ASSERT_EQ(plan.pairs.size(), 3u);  // map – arm, map – ground, arm – ground
   EXPECT_FALSE(plan.pairs[0].a_shell_b_field);
   EXPECT_TRUE(plan.pairs[0].b_shell_a_field);
-  EXPECT_FALSE(plan.pairs[1].isTestable());
+  EXPECT_FALSE(plan.pairs[1].a_shell_b_field);
+  EXPECT_FALSE(plan.pairs[1].b_shell_a_field);
   EXPECT_TRUE(plan.pairs[2].a_shell_b_field);
   EXPECT_FALSE(plan.pairs[2].b_shell_a_field);
   EXPECT_EQ(which(plan, &BodyNeeds::shell), (std::vector<bool>{false, true, false}));
-  // Voxels may lie wholly inside the arm: its field at their witness points shows that.
-  EXPECT_TRUE(plan.pairs[0].a_witnesses_b_field);
-  EXPECT_FALSE(plan.pairs[0].b_witnesses_a_field);
-  EXPECT_EQ(which(plan, &BodyNeeds::witnesses), (std::vector<bool>{true, false, false}));
-  EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{true, true, true}));
+  EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(which(plan, &BodyNeeds::triangles), (std::vector<bool>{true, true, true}));
   EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
 }
 
 TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
   const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
   EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{false, true}));
-  EXPECT_EQ(which(plan, &BodyNeeds::witnesses), (std::vector<bool>{false, false}));
   EXPECT_EQ(reasonOf(plan, "field of arm"), "used only as a shell");
 }
 
@@ -167,20 +164,6 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_FALSE(two.needs[0].shell);
   ASSERT_EQ(two.left_out.size(), 2U);
   EXPECT_EQ(two.left_out[0].what(), "shell of table");
-}
-
-TEST(ScenePlan, LargeBoxKeepsItsEdges) {
-  const SceneDescription scene{{body("table", Primitive(Box{{1.0, 0.5, 0.02}})), body("hand", kBall)}, {}};
-  PlanOptions options;
-  options.shell_spacing = 0.005;
-  options.edge_gap = 0.001;
-  const ScenePlan plan = planScene(scene, options);
-  ASSERT_EQ(plan.pairs.size(), 1U);
-  EXPECT_TRUE(plan.pairs[0].a_shell_b_field);
-  EXPECT_TRUE(plan.pairs[0].a_edges_only);
-  EXPECT_FALSE(plan.pairs[0].b_edges_only);
-  EXPECT_EQ(which(plan, &BodyNeeds::edges_only), (std::vector<bool>{true, false}));
-  EXPECT_EQ(reasonOf(plan, "full-shell of table"), "large; the shells of smaller bodies suffice");
 }
 
 TEST(ScenePlan, TableNamesLinksThatAreOnlySeen) {

@@ -231,14 +231,33 @@ TEST(SurfacePair, NothingTunnels) {
   }
 }
 
-/// A body with other elements than triangles is not decided by triangles.
-TEST(SurfacePair, HalfSpacesAndWhatAreNoVoxelsKeepTheirFields) {
-  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.15})), true);  // said to be a voxel
+TEST(SurfacePair, WhatIsSaidToBeVoxelsAndIsNotIsNotChecked) {
+  BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.15})), true);
   map.geometry[0].watertight_voxels = true;
-  BodyDescription post = body("post", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true);
-  post.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.5}}), Isometry3d::Identity(), "post"});
-  const auto scene = build({map, post, body("ball", Primitive(Sphere{0.05}))}, coarse());
-  for (int i = 0; i < 2; ++i) EXPECT_FALSE(scene->bodies[i].triangles) << scene->bodies[i].name;
+  const auto scene = build({map, body("ball", Primitive(Sphere{0.05}))}, coarse());
+  EXPECT_NE(scene->bodies[0].failure.find("not those of whole voxels"), std::string::npos) << scene->bodies[0].failure;
+  EXPECT_EQ(Monitor(scene, soft())
+                .run(cycle(0.1, {still(translation({2, 0, 0})), still(Isometry3d::Identity())}), {})
+                .verdict,
+            Verdict::kNotChecked);
+}
+
+/// Bricks whose sides are flush: no edge of one pierces a face of the other.
+TEST(SurfacePair, FlushBricksInEachOtherAreInContact) {
+  for (const bool mesh : {false, true}) {
+    const Primitive box = Box{{0.1, 0.1, 0.1}};
+    const Shape shape = mesh ? meshShape(boxMesh({0.1, 0.1, 0.1})) : Shape(box);
+    const auto scene = build({body("a", shape), body("b", shape)}, coarse());
+    const auto at = [&](double height) {
+      return Monitor(scene, soft())
+          .run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, height}))}), {})
+          .verdict;
+    };
+    EXPECT_EQ(at(0.1), Verdict::kContact);
+    EXPECT_EQ(at(0.199), Verdict::kContact);
+    EXPECT_EQ(at(0.2), Verdict::kUncertain);
+    EXPECT_EQ(at(0.201), Verdict::kClear);
+  }
 }
 
 /// A closed channel along x, open at its top, whose floor is between z = 0 and `wall`.

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "body/body_surface.h"
+#include "body/body_triangles.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/monitor/world.h"
@@ -34,11 +34,11 @@ TriangleMesh roughSheet(unsigned seed) {
 
 TEST(WorldMemory, OfObjectsThatAreGoneIsLimitedByTheirBytes) {
   WorldEditor editor(fine(0.02));
-  std::vector<std::weak_ptr<const BodySurface>> made;
-  for (unsigned i = 0; i < 16; ++i) {
+  std::vector<std::weak_ptr<const BodyTriangles>> made;
+  for (unsigned i = 0; i < 24; ++i) {
     const SceneDescription world{
         {body("ball", meshShape(icosphere(0.1, 2))), body("sheet", meshShape(roughSheet(i)), true)}, {}};
-    made.push_back(editor.next(world)->scene->bodies[1].surface);
+    made.push_back(editor.next(world)->scene->bodies[1].triangles);
     ASSERT_FALSE(made.back().expired());
   }
   std::size_t kept = 0, bytes = 0;
@@ -46,7 +46,7 @@ TEST(WorldMemory, OfObjectsThatAreGoneIsLimitedByTheirBytes) {
     const auto alive = surface.lock();
     if (!alive) continue;
     ++kept;
-    bytes += alive->tree.bytes();
+    bytes += alive->bytes();
   }
   EXPECT_GE(kept, 2u) << "what is put back soon is not built again";
   EXPECT_LE(bytes, std::size_t{34} << 20);

@@ -25,13 +25,6 @@ inline BodyDescription body(const std::string& name, const Shape& shape, bool is
   return body;
 }
 
-/// The half-space z ≤ 0, and another one in it: of such a body nothing but the field is known.
-inline BodyDescription groundWithoutSurface() {
-  BodyDescription two = body("ground", ground(), true);
-  two.geometry.push_back({ground(), translation({0, 0, -1}), "ground below"});
-  return two;
-}
-
 inline BodyOptions fine(double spacing = 0.01) {
   BodyOptions options;
   options.field.cells = 32;

@@ -185,7 +185,7 @@ TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
       ChordPath path;
       cutIntoChords({{0.0, 1.0}, {from, to}}, rootBall(scene.tree), {1e-3, 40}, path);
       ShellQueryResult result;
-      shellIntervals(scene.field, scene.shell, scene.tree, path, {0.0, false}, result);
+      shellIntervals(scene.field, scene.shell, scene.tree, path, {}, result);
       expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, 0.0));
       if (HasFatalFailure()) return;
     }
@@ -234,11 +234,6 @@ TEST(ShellQuery, EqualsLinearScanOnMotionsOfAllKinds) {
         inside += result.count() - long(result.hits.size());
         tested += result.points_tested;
         points += long(shell.size() * path.chords.size());
-        ShellQueryResult any;
-        shellIntervals(field, shell, tree, path, {sigma, true}, any);
-        EXPECT_EQ(any.hits.size(), result.touches() ? 1U : 0U);
-        EXPECT_LE(any.points_tested, result.points_tested + 1);
-        EXPECT_LE(any.nodes_visited, result.nodes_visited);
       }
     }
     const bool clear = kind.reach > 1.0;
@@ -321,15 +316,6 @@ TEST(ShellQuery, RefusesAPathThatIsNotFinite) {
   }
 }
 
-TEST(ShellQuery, AnyStopsAtOneHit) {
-  const Scene scene = std::move(scenes()[0]);
-  ChordPath path;
-  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, rootBall(scene.tree), {}, path);
-  ShellQueryResult result;
-  shellIntervals(scene.field, scene.shell, scene.tree, path, {scene.field.errorBound(), true}, result);
-  EXPECT_EQ(result.hits.size(), 1U);
-}
-
 TEST(ShellQuery, ClearanceIsATightLowerBound) {
   Random random(3);
   const double slack = 0.002;
@@ -358,13 +344,9 @@ TEST(ShellQuery, NodesWithoutPointsNeverHit) {
   ChordPath path;
   path.chords.emplace_back();
   path.chords[0].X_FP_start = path.chords[0].X_FP_end = Isometry3d::Identity();
-  for (const bool any : {false, true}) {
-    ShellQueryOptions options;
-    options.any = any;
-    ShellQueryResult result;
-    shellIntervals(field, shell, tree, path, options, result);
-    EXPECT_FALSE(result.touches());
-  }
+  ShellQueryResult result;
+  shellIntervals(field, shell, tree, path, {}, result);
+  EXPECT_FALSE(result.touches());
 }
 
 TEST(ShellQuery, EmptyShellNeverHits) {

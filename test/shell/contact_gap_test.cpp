@@ -108,14 +108,6 @@ TEST(ContactGap, WithoutPointsOnEdgesAllOfASurfaceMustBeCovered) {
   EXPECT_EQ(contactGapToPlane(plain), plain.covering_radius);
 }
 
-TEST(ContactGap, EdgesAloneBearNothing) {
-  const PointShell shell = sampleEdges(test::boxMesh({0.5, 0.3, 0.2}), options());
-  EXPECT_NEAR(contactGap(shell, shell), kGap + shell.position_error, 1e-12);
-  for (const double area : shell.areas) EXPECT_EQ(area, 0.0);
-  EXPECT_EQ(shell.covering_radius, kInfinity);
-  EXPECT_THROW(sampleEdges(test::boxMesh({0.5, 0.3, 0.2}), options(0.0)), std::invalid_argument);
-}
-
 TEST(FlatPieces, ABoxHasTwelveEdges) {
   const TriangleMesh box = test::boxMesh({0.5, 0.3, 0.2});
   EXPECT_EQ(edgesOfFlatPieces(box, 1e-9).size(), 12u);

@@ -65,11 +65,8 @@ struct Body : BodyPlace {
   std::vector<BodyPart> parts;    ///< empty if no pair needs its field
   SharedValue<PointShell> shell;  ///< frame B; empty if no pair needs it; without points deep inside a sibling part
   SharedValue<SphereTree> tree;
-  SharedValue<PointShell> witnesses;  ///< frame B; replace a shell: one point per component, none for half-spaces
-  SharedValue<SphereTree> witness_tree;
-  std::shared_ptr<const BodySurface> surface;      ///< set if a pair has a field with openings; null for a half-space
-  std::shared_ptr<const BodyTriangles> triangles;  ///< decide pairs whose bodies both have them or one is a half-space;
-                                                   ///< null if it is not made of triangles alone, or in no such pair
+  std::shared_ptr<const BodySurface> surface;      ///< for voxels of a live map that are those of the body; else null
+  std::shared_ptr<const BodyTriangles> triangles;  ///< of its bounded elements, which decide verdicts
   /// All bounded geometry of a body with a mesh whose sign is not trusted (MeshQuality::sign_trusted), with caps in
   /// openings and boxes around primitives, frame B. Only points with a free line of sight to the outside are certainly
   /// outside. Null for other bodies, whose fields give the sign.
@@ -98,7 +95,6 @@ struct BodyReport {
   double field_error = 0.0;     ///< [m]
   std::size_t shell_points = 0;
   std::size_t shell_bytes = 0;  ///< with the triangles that decide verdicts
-  std::size_t witnesses = 0;    ///< Body::witnesses
   double gap = 0.0;             ///< between its shell's points, for a pair of equal shells [m]
   std::size_t pairs = 0;
   ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow

@@ -17,14 +17,11 @@ namespace sdf_ccd {
 struct BodyNeeds {
   bool field = true;
   bool shell = true;
-  bool edges_only = false;  ///< the body is one box, and no pair needs more of its shell
-  bool decides = true;      ///< some verdict depends on the shell: large elements must have all points
-  bool witnesses = false;   ///< Body::witnesses
-  bool triangles = false;   ///< Body::triangles
-  bool surface = false;     ///< Body::surface
+  bool triangles = false;  ///< Body::triangles
+  bool surface = false;    ///< Body::surface
 
-  /// Whether field, shell or witnesses are needed.
-  bool any() const { return field || shell || witnesses; }
+  /// Whether a field or a shell is needed.
+  bool any() const { return field || shell; }
 };
 
 /// Required accuracy of bodies that are prepared for checks.
@@ -43,8 +40,8 @@ struct BodyOptions {
   ShellOptions shell;
 
   /// Number of shell points and field cells along the square root of an element's surface area. Spacing and cells are
-  /// at least a millimetre; beyond shell.spacing and field.cell_size they grow by the fourth root of the size only, and
-  /// not at all where verdicts depend on the shell. 0: always shell.spacing and field.cell_size.
+  /// at least a millimetre; beyond shell.spacing and field.cell_size they grow by the fourth root of the size only,. 0:
+  /// always shell.spacing and field.cell_size.
   double points_across = 0.0, cells_across = 0.0;
 
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
@@ -61,8 +58,9 @@ struct BodyOptions {
 
   std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
 
-  /// Time that the estimate of a body's cost and its preparation may take together, at any number of threads [s]. A body
-  /// that takes longer fails, by name, as do bodies of the same meshes; the others are prepared. Infinite: no limit.
+  /// Time that the estimate of a body's cost and its preparation may take together, at any number of threads [s]. A
+  /// body that takes longer fails, by name, as do bodies of the same meshes; the others are prepared. Infinite: no
+  /// limit.
   double max_preparation_time = std::numeric_limits<double>::infinity();
 
   /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a

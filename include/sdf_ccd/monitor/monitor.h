@@ -43,9 +43,9 @@ struct CycleRequest {
   bool contacts = true;
 
   /// Once this much of the cycle's time is used up [s], nothing more is tested; 0: no limit. Searches and integrals end
-  /// within a millisecond. Verdicts come first: pairs without one are PairResult::postponed, and contacts that are known
-  /// but not yet computed are PairResult::incomplete. Both come first in the next cycle. A pair whose search ended
-  /// although it came first has all of the time again only after some cycles, so that others have it meanwhile.
+  /// within a millisecond. Verdicts come first: pairs without one are PairResult::postponed, and contacts that are
+  /// known but not yet computed are PairResult::incomplete. Both come first in the next cycle. A pair whose search
+  /// ended although it came first has all of the time again only after some cycles, so that others have it meanwhile.
   double max_time = 0.0;
 
   Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
@@ -68,8 +68,8 @@ struct ContactPoint {
   double depth = 0.0;  ///< [m]
   /// Of the depth [m], from the field at this point: mostly less than ErrorBound::field. Beyond the band the point may
   /// get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and they
-  /// are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the body may
-  /// be deeper by up to this, but is never less deep by more than the field's error.
+  /// are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the body
+  /// may be deeper by up to this, but is never less deep by more than the field's error.
   double depth_error = 0.0;
   Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
@@ -86,8 +86,8 @@ struct PairResult {
   /// UNCERTAIN because no time was left to test it: by what is known from earlier cycles, the bodies overlap by no more
   /// than the error.
   bool postponed = false;
-  /// CONTACT, but no time was left to compute it: `reason` tells what is missing. If that is its times, depth and force,
-  /// the only interval is the whole span, during which it touches at `deepest` at least; its depth is up to
+  /// CONTACT, but no time was left to compute it: `reason` tells what is missing. If that is its times, depth and
+  /// force, the only interval is the whole span, during which it touches at `deepest` at least; its depth is up to
   /// deepest.depth + depth_error, the greatest that the bodies allow; there are no points, and wrenches are NaN.
   bool incomplete = false;
   ErrorBound error;          ///< of the verdict
@@ -139,9 +139,8 @@ struct MonitorOptions {
   ContactOptions contact;
   ChordOptions chords;
 
-  /// For pairs that are decided by triangles [m]: surfaces are proved to be apart if they come no closer than half of
-  /// this plus the errors of the motions and the triangles; pairs that come closer may stay UNCERTAIN. From
-  /// kMinMaxError to kLargestMaxError.
+  /// Surfaces are proved to be apart if they come no closer than half of this plus the errors of the motions and the
+  /// triangles; pairs that come closer may stay UNCERTAIN [m]. From kMinMaxError to kLargestMaxError.
   double max_error = 1e-4;
 };
 
@@ -171,36 +170,28 @@ class MonitorChange {
 
 /// Checks all pairs of a scene cycle by cycle, and remembers their clearances.
 ///
-/// Two bodies that consist of triangles (meshes, boxes, cylinders, spheres: Body::triangles) are CLEAR if their
+/// Surfaces decide (meshes, voxels, primitives: Body::triangles, and half-spaces). Two bodies are CLEAR if their
 /// surfaces are proved to stay farther apart than the error of the motions, and no part of one is wholly inside the
-/// other. They are in CONTACT if the surfaces certainly cross at some time. This holds to MonitorOptions::max_error,
-/// independent of fields and shells (src/query/surfaces/separation.h; design §3.17). PairResult::error then is that of
-/// the triangles and motions; for a pair that is UNCERTAIN because its surfaces come too close to decide, plus
-/// max_error. Fields and shells decide what this leaves open (a body may be wholly inside the other, or have come
-/// through the opening of a mesh); they also give depths and forces, with the error PairResult::contact_error.
+/// other. They are in CONTACT if the surfaces certainly cross at some time, or a point of one is certainly inside the
+/// other. This holds to MonitorOptions::max_error (src/query/surfaces/separation.h; design §3.17); what comes too close
+/// to decide is UNCERTAIN, as is what may have come through the opening of a mesh. PairResult::error is that of the
+/// triangles and motions, for an UNCERTAIN pair plus the distance within which it is open. Pairs are NOT_CHECKED if a
+/// body is missing or beyond kFarthestPose, or both have half-spaces.
 ///
-/// Other pairs are CLEAR if no shell point comes closer than the error bound's total; in CONTACT if one is certainly
-/// deeper than the errors of chord and root, given the field's error at its location; else UNCERTAIN. They are
-/// NOT_CHECKED if a body is missing or beyond kFarthestPose, or the bound is infinite. Both bodies' shells are tested
-/// where both exist, and their impulses are weighted so that a contact that both see counts once. Where the bound
-/// exceeds a band, the field's lower bounds decide about CLEAR. Wrenches are integrated in the world's axes about A's
-/// origin at the end.
+/// Fields and shells give the contacts: times, depths and forces, with the error PairResult::contact_error. Both
+/// bodies' shells are tested where both exist, and their impulses are weighted so that a contact that both see counts
+/// once. Wrenches are integrated in the world's axes about A's origin at the end. A pair of which neither body can have
+/// a shell (two maps, a map and a half-space) has contacts without force.
 ///
 /// A CLEAR pair is not tested again until its bodies can have used up the distance between them. Skipping costs some
 /// nanoseconds per pair and cycle and is as safe as a test, even if a motion does not begin where the last one ended.
 /// Any other pair is not tested again while its bodies do not move relative to each other, by no monitor of the scene:
 /// Scene::resting.
 ///
-/// In a field with openings, a point may be inside only because of a cap, or may have come there through an opening.
-/// Hits in such a field alone give UNCERTAIN, with a depth_error no less than the depth. They bear no force, unless the
-/// point may be just touching the mesh. CONTACT with such a field requires that a point certainly passes through the
-/// mesh, in or out, or that triangles of both bodies certainly cross at a recorded time (surface_crossing.h); then
-/// depths to the mesh, but not to a cap, bear force. A crossing without any hit (of a sheet, which has no inside) is a
-/// contact of zero duration and depth.
-///
-/// A body wholly inside another one touches no surface. It is detected by the points of its shell or, for a body
-/// without a shell (a voxel map, whatever shares a body with one or with a half-space), by one point of each of its
-/// components. Such a contact of a body without a shell has a depth, but bears no force.
+/// In a field with openings, a point may be inside only because of a cap, or may have come there through an opening:
+/// unless the surfaces certainly cross, its depth_error is no less than its depth, and it bears no force except where
+/// it may be just touching the mesh. Depths to a cap never bear force. A crossing without any hit (of a sheet, which
+/// has no inside) is a contact of zero duration and depth.
 ///
 /// After the first cycles no memory is allocated unless contacts or the number of chords grow, or another thread joins
 /// the arena (it allocates its scratch memory once). Contacts are merged as they are found, so memory is that of a few

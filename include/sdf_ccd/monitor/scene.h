@@ -13,20 +13,12 @@
 
 namespace sdf_ccd {
 
-/// Which tests a pair needs: A's shell against B's field, and the other way round.
+/// A pair, and what its contacts are found with: A's shell in B's field, or the other way round, or both.
 struct PlannedPair {
   int body_a;
   int body_b;
   bool a_shell_b_field;
   bool b_shell_a_field;
-  bool a_edges_only = false;  ///< A's shell has only points on edges, which detect contacts; B's shell gives the force
-  bool b_edges_only = false;
-  bool a_witnesses_b_field = false;  ///< A has no shell: one point of each of its components tells whether that lies
-                                     ///< wholly inside B (design §3.15)
-  bool b_witnesses_a_field = false;
-
-  /// Whether there is any test of the pair; without one it is NOT_CHECKED.
-  bool isTestable() const { return a_shell_b_field || b_shell_a_field || a_witnesses_b_field || b_witnesses_a_field; }
 };
 
 /// Why something is left out.
@@ -39,7 +31,7 @@ struct LeftOutReason {
 
 /// A pair, field or shell that a plan leaves out.
 struct LeftOut {
-  std::string kind;  ///< "pair", "field", "shell", "full-shell"
+  std::string kind;  ///< "pair", "field", "shell"
   std::string name;  ///< "a - b", or that of a body
   LeftOutReason reason;
   int body_a = -1, body_b = -1;  ///< of a pair
@@ -65,29 +57,22 @@ struct ScenePlan {
 struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
-  double edge_gap = 0.0;            ///< as in ShellOptions [m]; 0: edges are not sampled separately
   bool both_fields = false;         ///< both bodies of a pair have a field, whatever shells there are: for exact depths
 };
 
-/// Plans which fields, shells and tests the pairs of a scene need.
-///
-/// A body that cannot have a shell, but consists of more than half-spaces, has witnesses instead: a voxel map, and
-/// whatever shares a body with one or with a half-space. Witnesses are tested against bodies with a shell, which then
-/// need a field.
+/// Plans which fields and shells the pairs of a scene need.
 ///
 /// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
 /// same frame (unless one is a tile of a map, which changes there), or of a body without geometry; fields and shells
 /// that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot be covered
 /// with points). A body that is one large primitive (a table, a wall) only has a field against bodies too small to
-/// contain it: their shells against its exact field detect every contact of the surfaces. If it is a box and edges are
-/// sampled separately, its points on edges are kept: with them, contacts are detected to the edge gap instead of the
-/// spacing. All others are tested in both roles.
+/// contain it: their shells find every contact in its exact field. All others have both roles. The contacts of a pair
+/// of two bodies without a shell (an attached map and a map or a half-space of the world) have no force.
 ///
-/// No pair is left out because it cannot be tested. A pair of two bodies without a shell (an attached map and a map or
-/// a half-space of the world) stays, and is NOT_CHECKED; Scene::warnings name it. So is a pair with a body that cannot
-/// be checked, which requires nothing to be built; but if that body is a tile of a map (BodyDescription::map), which is
-/// still to come, the other body is prepared for it. An allowed pair may name bodies that the scene does not have (an
-/// SRDF's links without collision geometry).
+/// No pair is left out because it cannot be tested. A pair of two bodies with half-spaces stays, and is NOT_CHECKED;
+/// Scene::warnings name it. So is a pair with a body that cannot be checked, which requires nothing to be built; but if
+/// that body is a tile of a map (BodyDescription::map), which is still to come, the other body is prepared for it. An
+/// allowed pair may name bodies that the scene does not have (an SRDF's links without collision geometry).
 /// @throws std::invalid_argument if two bodies share a name, or an allowed pair names the same body twice.
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options = {});
 
@@ -116,7 +101,6 @@ inline PlanOptions planOptions(const BodyOptions& options) {
   PlanOptions plan;
   plan.both_fields = options.exact_depths;
   plan.shell_spacing = options.shell.spacing;
-  plan.edge_gap = options.shell.edge_gap < options.shell.spacing ? options.shell.edge_gap : 0.0;
   return plan;
 }
 
@@ -131,7 +115,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
 void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene);
 
 /// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies. A pair of two
-/// bodies without a shell cannot be tested: it is NOT_CHECKED, and Scene::warnings name it.
+/// bodies with half-spaces cannot be tested: it is NOT_CHECKED, and Scene::warnings name it.
 /// @param motion_margin  as in BodyOptions [m].
 /// @throws std::invalid_argument if two bodies share a name, or one has neither field nor shell.
 Scene makeScene(std::vector<Body> bodies, double motion_margin = 1e-3);

@@ -5,7 +5,6 @@
 #include "body/body_builder.h"
 #include "body/body_surface.h"
 #include "common/infinity.h"
-#include "monitor/surface_crossing.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
@@ -37,6 +36,13 @@ std::shared_ptr<const BodySurface> surfaceOf(const Body& body, const BodyDescrip
   if (body.surface) return body.surface;
   MeshPool pool{BodyOptions()};
   return surfaceOf(description, pool);
+}
+
+/// Whether a point inside the body's fields may be outside the body: a field has openings, or the inside of a mesh is
+/// doubtful.
+bool isInsideUncertain(const Body& body) {
+  return body.doubtful || std::any_of(body.parts.begin(), body.parts.end(),
+                                      [](const BodyPart& part) { return part.field.openings() != nullptr; });
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ struct VoxelMask {
 };
 
 /// The part of a map that a body fills, as a mask. Empty if the body has no bounded geometry whose distance is known.
-/// @param body  a mesh's surface is made here if the body has none: see needSurface().
+/// @param body  a mesh's surface is made here if the body has none: see needsSurface().
 /// @param X_BM  pose of the map's frame in the body's. The mask refers to `body` and `description`.
 std::optional<VoxelMask> maskOf(const Body& body, const BodyDescription& description, const Isometry3d& X_BM);
 

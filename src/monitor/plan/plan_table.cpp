@@ -5,7 +5,6 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "monitor/no_pairs.h"
-#include "monitor/pair_bound.h"
 #include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
 
@@ -71,7 +70,7 @@ std::string sources(const ErrorBound& bound) {
 }
 
 /// "error bound of verdicts: 0.04 mm, within the max_error of 0.10 (field 0.00, gap between points 0.00, motion
-/// 0.04); triangles decide about 21 of 21 pairs", and that of contacts.
+/// 0.04)", and that of contacts.
 std::string boundLines(const Scene& scene) {
   const ErrorBound& bound = scene.bound;
   if (scene.contact_bound.total() == 0.0) return "";
@@ -81,11 +80,7 @@ std::string boundLines(const Scene& scene) {
     text += ", " + std::string(reached ? "within" : "MORE than") + " the max_error of " +
             fixedText(1e3 * *scene.max_error, 2);
   }
-  const auto by_triangles = std::count_if(scene.pairs.begin(), scene.pairs.end(),
-                                          [&](const PlannedPair& pair) { return trianglesDecide(scene, pair); });
-  return text + sources(bound) + "; triangles decide about " + std::to_string(by_triangles) + " of " +
-         std::to_string(scene.pairs.size()) +
-         " pairs\nerror bound of contacts' times and of depths at the shells' points: " +
+  return text + sources(bound) + "\nerror bound of contacts' times and of depths at the shells' points: " +
          fixedText(1e3 * scene.contact_bound.total(), 2) + " mm" + sources(scene.contact_bound) + "\n";
 }
 
@@ -102,9 +97,9 @@ std::string planTable(const Scene& scene) {
     cells += report.cells;
     points += report.shell_points;
     const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
-    const std::string none = report.witnesses > 0 ? std::to_string(report.witnesses) + " witnesses" : "left out";
     rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), fixedText(mb, 1),
-                    fixedText(1e3 * report.field_error, 2), has_shell ? std::to_string(report.shell_points) : none,
+                    fixedText(1e3 * report.field_error, 2),
+                    has_shell ? std::to_string(report.shell_points) : "left out",
                     has_shell ? fixedText(1e3 * report.gap, 2) : "",
                     has_bound ? fixedText(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
   }

@@ -55,12 +55,12 @@ class CostEstimate {
     BodyCost cost;
     cost.name = body.name;
     cost.in_cache = true;
-    const bool is_first = seen_bodies_.insert(pool_->keys().keyOf(body) + (needs.decides ? "decides" : "")).second;
+    const bool is_first = seen_bodies_.insert(pool_->keys().keyOf(body)).second;
     if (!is_first) return cost;  // shared, see buildBody()
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* primitive = std::get_if<Primitive>(&geometry.shape);
       if (primitive) {
-        if (needs.shell) addShell(*primitive, needs, cost);
+        if (needs.shell) addShell(*primitive, cost);
         continue;
       }
       PooledMesh& mesh = pool_->find(geometry);
@@ -69,7 +69,7 @@ class CostEstimate {
       if (needs.field && is_new) addField(mesh, cost);
       const double joined = geometry.watertight_voxels ? kLeftOfVoxels : 1.0;
       if (needs.triangles && is_new) cost.addTriangles(joined * double(mesh.mesh.triangles.size()));
-      const ShellUse use{body.geometry.size() > 1, needs.decides};
+      const bool use = body.geometry.size() > 1;
       if (needs.shell) cost.addShell(affordable(expectedPoints(mesh.mesh, pool_->shellOptions(mesh, use))));
     }
     cost.in_cache = cost.in_cache && cost.field_bytes > 0.0;
@@ -103,15 +103,15 @@ class CostEstimate {
 
   /// Tessellating a curved primitive finely would cost more than its shell. So points are counted on a coarser shell
   /// and extrapolated: they grow with the square of the fineness, or the power 1.5 if rims dominate.
-  void addShell(const Primitive& primitive, const BodyNeeds& needs, BodyCost& cost) {
+  void addShell(const Primitive& primitive, BodyCost& cost) {
     const double size = boundingBox(primitive).sizes().norm();
     const bool is_box = std::holds_alternative<Box>(primitive);
-    const Growth growth = needs.decides ? Growth::kNone : Growth::kFull;
+    const Growth growth = Growth::kFull;
     ShellOptions shell = shellOptionsFor(options_, surfaceArea(primitive), growth);
     const double finest = finenessOf(shell);
     const double coarser = is_box ? 1.0 : std::max(1.0, kFinestOfSize * size / finest);
     const bool has_rims = std::holds_alternative<Cylinder>(primitive) && shell.edge_gap > 0.0;
-    shell.spacing = needs.edges_only ? size : coarser * shell.spacing;
+    shell.spacing = coarser * shell.spacing;
     shell.edge_gap *= coarser;
     const double points = expectedPoints(tessellate(primitive, 0.05 * coarser * finest), shell);
     cost.addShell(affordable(points * std::pow(coarser, has_rims ? 1.5 : 2.0)));

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "body/body_builder.h"
-#include "body/body_triangles.h"
 #include "model/name_pair.h"
 #include "model/proofs.h"
 #include "surface_needs.h"
@@ -45,11 +44,6 @@ bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
   if (!primitive || isHalfSpace(body.geometry.front())) return false;
   return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
-}
-
-bool isBox(const BodyDescription& body) {
-  const auto* primitive = std::get_if<Primitive>(&body.geometry.front().shape);
-  return primitive && std::holds_alternative<Box>(*primitive);
 }
 
 /// The allowed pairs by their names, the first one of each.
@@ -119,17 +113,12 @@ LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
 
 /// A body while its pairs are planned.
 struct Planned {
-  bool is_large = false, has_pair = false, needs_faces = false, may_have_triangles = false, is_half_space = false;
+  bool is_large = false, has_pair = false, has_half_space = false;
   Extent extent;
 };
 
-/// Whether the surface of a is known well enough to decide its pair with b.
-bool isSurfaceKnown(const Planned& a, const Planned& b) {
-  return a.may_have_triangles || (a.is_half_space && b.may_have_triangles);
-}
-
-/// Without a shell of the large body, it would not be noticed wholly inside the small one. So it must be too long for
-/// that.
+/// Without a shell of the large body, its contacts with a small one are found in its field alone: it must be too long
+/// to lie inside the small one.
 bool isOnlyAField(const Planned& large, const Planned& small) {
   return large.is_large && !small.is_large && large.extent.longest_side > small.extent.diagonal;
 }
@@ -138,28 +127,19 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
                      std::vector<Planned>& planned, std::vector<BodyNeeds>& needs) {
   const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
   Planned &of_a = planned[i], &of_b = planned[k];
-  const bool checkable = isPlanned(a) && isPlanned(b);
-  const bool a_can = checkable && whyNoShell(a).empty(), b_can = checkable && whyNoShell(b).empty();
-  const bool a_faces = a_can && !(b_can && isOnlyAField(of_a, of_b)),
-             b_faces = b_can && !(a_can && isOnlyAField(of_b, of_a));
-  const bool a_edges = !a_faces && a_can && options.edge_gap > 0.0 && isBox(a);
-  const bool b_edges = !b_faces && b_can && options.edge_gap > 0.0 && isBox(b);
-  const bool a_shell = a_faces || a_edges, b_shell = b_faces || b_edges;
   of_a.has_pair = of_b.has_pair = true;
-  if (!a_shell && !b_shell) return {i, k, false, false};  // not testable
-  const bool a_witnesses = b_shell && needsWitnesses(a), b_witnesses = a_shell && needsWitnesses(b);
-  if (a_witnesses) needs[i].witnesses = needs[k].field = true;
-  if (b_witnesses) needs[k].witnesses = needs[i].field = true;
-  const bool a_known = isSurfaceKnown(of_a, of_b), b_known = isSurfaceKnown(of_b, of_a);
-  if (checkable && a_known && b_known) needs[i].triangles = needs[k].triangles = true;
-  if (a_can && b_can && options.both_fields) needs[i].field = needs[k].field = true;
-  if (a_shell) needs[i].shell = needs[k].field = true;
-  if (b_shell) needs[k].shell = needs[i].field = true;
-  if (!a_known) needs[k].decides = true;
-  if (!b_known) needs[i].decides = true;
-  of_a.needs_faces |= a_faces;
-  of_b.needs_faces |= b_faces;
-  return {i, k, a_shell, b_shell, a_edges, b_edges, a_witnesses, b_witnesses};
+  const bool can_be_checked = isPlanned(a) && isPlanned(b) && !(of_a.has_half_space && of_b.has_half_space);
+  if (!can_be_checked) return {i, k, false, false};
+  const bool a_can = whyNoShell(a).empty(), b_can = whyNoShell(b).empty();
+  const bool a_shell = a_can && !(b_can && isOnlyAField(of_a, of_b)),
+             b_shell = b_can && !(a_can && isOnlyAField(of_b, of_a));
+  needs[i].triangles = needs[k].triangles = true;
+  // A field also tells where a body without a shell is.
+  if (b_shell || !a_can || (a_can && b_can && options.both_fields)) needs[i].field = true;
+  if (a_shell || !b_can || (a_can && b_can && options.both_fields)) needs[k].field = true;
+  needs[i].shell |= a_shell;
+  needs[k].shell |= b_shell;
+  return {i, k, a_shell, b_shell};
 }
 
 void listLeftOut(const BodyDescription& body, const Planned& planned, const BodyNeeds& needs,
@@ -170,7 +150,6 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
     no_shell = "large; the shells of smaller bodies suffice";
   const std::string idle = planned.has_pair ? "its pairs cannot be checked" : "no pair needs it";
   if (!needs.field) left_out.push_back({"field", body.name, {needs.shell ? "used only as a shell" : idle}});
-  if (needs.edges_only) left_out.push_back({"full-shell", body.name, {no_shell}});
   if (!needs.shell) left_out.push_back({"shell", body.name, {no_shell.empty() ? idle : no_shell}});
 }
 
@@ -180,12 +159,12 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   const std::map<NamePair, const AllowedPair*> allowed = allowedPairs(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
-  plan.needs.assign(count, {false, false, false, false});
+  plan.needs.assign(count, {false, false});
   std::vector<Planned> planned(count);
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
-    planned[i].may_have_triangles = mayHaveTriangles(body);
-    planned[i].is_half_space = body.geometry.size() == 1 && isHalfSpace(body.geometry.front());
+    planned[i].has_half_space = std::any_of(body.geometry.begin(), body.geometry.end(),
+                                            [](const GeometryDescription& part) { return isHalfSpace(part); });
     if (!isPlanned(body)) continue;
     plan.needs[i].field = hidesVoxels(description, body);
     planned[i].is_large = isLarge(body, options);
@@ -204,7 +183,6 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     }
   }
   for (int i = 0; i < count; ++i) {
-    plan.needs[i].edges_only = plan.needs[i].shell && !planned[i].needs_faces;
     listLeftOut(description.bodies[i], planned[i], plan.needs[i], plan.left_out);
   }
   return plan;

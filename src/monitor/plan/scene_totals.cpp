@@ -42,10 +42,10 @@ void setTotals(Scene& scene) {
   for (const PlannedPair& pair : scene.pairs) {
     ++scene.reports[pair.body_a].pairs;
     ++scene.reports[pair.body_b].pairs;
-    ErrorBound of_contacts = pairBound(scene, pair), bound = verdictBound(scene, pair);
-    if (of_contacts.total() == 0.0) continue;  // one of the bodies was not built
+    if (!haveSurfaces(scene, pair)) continue;  // one of the bodies was not built
+    ErrorBound of_contacts = contactBound(scene, pair);
     of_contacts.chord = scene.motion_margin;
-    bound.chord = trianglesDecide(scene, pair) ? scene.motion_error : scene.motion_margin;
+    const ErrorBound bound{0.0, scene.motion_error, 0.0, deviationOf(scene, pair)};
     if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
     for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
       if (isLarger(bound, *largest)) *largest = bound;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <vector>
-
-#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/model/scene_description.h"
 
 namespace sdf_ccd {
 
@@ -11,10 +8,8 @@ namespace sdf_ccd {
 /// fields and surface are kept for that.
 bool hidesVoxels(const SceneDescription& description, const BodyDescription& body);
 
-/// Which bodies keep the surface of their mesh (Body::surface), by index: those that hide voxels, and both of a pair of
-/// which one may have its inside uncertain, so that the way to the surface decides.
-/// @param isOpen  whether a body's inside is uncertain: see isInsideUncertain().
-std::vector<bool> needSurface(const SceneDescription& description, const std::vector<PlannedPair>& pairs,
-                              const std::function<bool(int body)>& isOpen);
+/// Whether the body keeps the surface of its mesh (Body::surface): if it hides voxels, or is an object that a live map
+/// may show.
+bool needsSurface(const SceneDescription& description, const BodyDescription& body);
 
 }  // namespace sdf_ccd
