@@ -9,7 +9,7 @@ if(SDF_CCD_ROS_SOURCES)
   target_include_directories(sdf_ccd_ros PUBLIC src)
   #catkin_lint: ignore_once external_interface_path
   target_include_directories(sdf_ccd_ros SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
-  target_link_libraries(sdf_ccd_ros sdf_ccd_robot sdf_ccd_dynamics fmt::fmt ${catkin_LIBRARIES} ${SDF_CCD_YAML})
+  target_link_libraries(sdf_ccd_ros sdf_ccd_robot sdf_ccd_dynamics fmt::fmt ${catkin_LIBRARIES})
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
 endif()
 

@@ -1,11 +1,11 @@
 // Fuzzes the monitor's parameters, as check-bag reads them from a YAML file.
 #include "fuzz_input.h"
 #include "ros/parameters/parameters.h"
-#include "ros/parameters/yaml_parameters.h"
+#include "settings/yaml_settings.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;
   static const fuzz::InputFile file(".yaml");
-  fuzz::attempt([&] { parseParameters(loadYamlParameters(file.write(fuzz::toText(data, size))), "~"); });
+  fuzz::attempt([&] { parseParameters(loadYaml(file.write(fuzz::toText(data, size))), "~"); });
   return 0;
 }

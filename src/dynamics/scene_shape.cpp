@@ -5,37 +5,30 @@
 #include "geometry/generated_mesh.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
+#include "settings/scene_settings.h"
 
 namespace sdf_ccd {
 namespace {
 
-std::optional<Primitive> readPrimitive(YamlMap& shape, const std::string& type) {
-  if (type == "sphere") return Sphere{shape.get<double>("radius")};
-  if (type == "box") return Box{0.5 * shape.vector("size")};
-  if (type == "cylinder") return Cylinder{shape.get<double>("radius"), 0.5 * shape.get<double>("length")};
-  if (type == "plane") return HalfSpace{Vector3d::UnitZ(), 0.0};
-  return std::nullopt;
-}
-
-Thread readThread(YamlMap& shape) {
-  return {shape.get<double>("radius"), shape.get<double>("pitch"), shape.get<double>("depth")};
+Thread readThread(SettingsReader& shape) {
+  return {shape.number("radius"), shape.number("pitch"), shape.number("depth")};
 }
 
 /// Number of points around the axis.
-int readSteps(YamlMap& shape, int otherwise) {
-  return shape.count("steps", otherwise, 3, 1000);
+int readSteps(SettingsReader& shape, int otherwise) {
+  return shape.integer("steps", otherwise, 3, 1000);
 }
 
-std::optional<TriangleMesh> readMesh(YamlMap& shape, const std::string& type, const std::string& directory) {
-  const auto length = [&](const char* key) { return shape.get<double>(key); };
+std::optional<TriangleMesh> readMesh(SettingsReader& shape, const std::string& type, const std::string& directory) {
+  const auto length = [&](const char* key) { return shape.number(key); };
   if (type == "mesh") {
-    const auto file = shape.get<std::string>("file");
+    const std::string file = shape.text("file");
     const bool absolute = !file.empty() && file.front() == '/';
-    return scaled(loadMesh(absolute ? file : directory + "/" + file), Vector3d::Constant(shape.get("scale", 1.0)));
+    return scaled(loadMesh(absolute ? file : directory + "/" + file), Vector3d::Constant(shape.number("scale", 1.0)));
   }
   if (type == "bowl") return bowlMesh(length("radius"), length("thickness"), readSteps(shape, 64));
   if (type == "blob")
-    return blobMesh(length("radius"), shape.get("bump", 0.2), shape.count("points", 800, 4, 1'000'000));
+    return blobMesh(length("radius"), shape.number("bump", 0.2), shape.integer("points", 800, 4, 1'000'000));
   if (type == "top") return topMesh(length("radius"), length("height"), readSteps(shape, 48));
   if (type == "wedge") return wedgeMesh(length("width"), length("height"), length("length"));
   if (type == "slot") return slotMesh(length("width"), length("height"), length("length"));
@@ -67,14 +60,13 @@ void flatten(CollisionShape& shape) {
 
 }  // namespace
 
-SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
-  const auto type = shape.get<std::string>("type");
-  const bool linear = shape.choice("traversal", {"hierarchy", "linear"}, "hierarchy") == 1;
+SceneShape buildSceneShape(SettingsReader shape, const std::string& directory) {
+  const std::string type = shape.text("type");
+  const bool linear = shape.choice("traversal", {"hierarchy", "linear"}, 0) == 1;
   SceneShape built;
   CollisionShape collision;
   ShellOptions shell;
   if (const std::optional<Primitive> primitive = readPrimitive(shape, type)) {
-    validate(*primitive);
     const AlignedBox3d box = boundingBox(*primitive);
     const bool bounded = box.sizes().allFinite();
     built.unit = unitMass(*primitive);
@@ -85,7 +77,7 @@ SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
     collision = makeShape(*primitive, shell);
   } else {
     const std::optional<TriangleMesh> drawn = readMesh(shape, type, directory);
-    if (!drawn) shape.fail(shape.node("type"), "type `" + type + "` is not known");
+    if (!drawn) shape.fail("type", "one of box sphere cylinder plane mesh bowl blob top wedge slot bolt nut");
     const OrientedMesh oriented = orientOutward(*drawn);
     const TriangleMesh& mesh = oriented.mesh;
     if (oriented.quality.sign_trusted)
@@ -96,9 +88,9 @@ SceneShape buildSceneShape(YamlMap shape, const std::string& directory) {
     built.mesh_B = std::make_shared<TriangleMesh>(transformed(mesh, Isometry3d(Eigen::Translation3d(-built.center))));
     const double side = boundingBox(mesh).sizes().maxCoeff();
     FieldOptions field;
-    field.cells = shape.get("cells", 64);
+    field.cells = shape.integer("cells", 64, 1);
     shell.spacing = shape.positive("spacing", side / 25.0);
-    shell.vertex_spacing = shape.get("vertex_spacing", 0.5 * shell.spacing);
+    shell.vertex_spacing = shape.number("vertex_spacing", 0.5 * shell.spacing);
     collision = makeShape(*built.mesh_B, field, shell);
   }
   if (linear) flatten(collision);

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "sdf_ccd/dynamics/rigid_world.h"
-#include "yaml/yaml_map.h"
+#include "settings/settings_reader.h"
 
 namespace sdf_ccd {
 
@@ -17,6 +17,6 @@ struct SceneShape {
 };
 
 /// Reads and builds one entry of `shapes`.
-SceneShape buildSceneShape(YamlMap shape, const std::string& directory);
+SceneShape buildSceneShape(SettingsReader shape, const std::string& directory);
 
 }  // namespace sdf_ccd

@@ -84,55 +84,59 @@ TEST(SimulationFile, MistakesAreNamedWithTheirLine) {
   const auto holds = [](const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  holds(reasonOf("damping", "dampening"), "line 4, contact: `dampening` is not a known key");
-  holds(reasonOf("step: 0.001", "step: quick"), "line 2, scene: `step`: \"quick\" is not a valid value");
-  holds(reasonOf("step: 0.001", "pace: 1"), "`step` is missing");
-  holds(reasonOf("shape: box", "shape: bax"), "there is no shape `bax`");
-  holds(reasonOf("type: box", "type: bax"), "type `bax` is not known");
+  holds(reasonOf("damping", "dampening"), "line 4: unknown parameter contact/dampening, did you mean damping?");
+  holds(reasonOf("step: 0.001", "step: quick"), "line 2: parameter step is quick, expected a finite number");
+  holds(reasonOf("step: 0.001", "pace: 1"), "parameter step is missing");
+  holds(reasonOf("shape: box", "shape: bax"),
+        "parameter bodies[1]/shape is bax, expected the name of one of the shapes");
+  holds(reasonOf("type: box", "type: bax"), "parameter shapes/box/type is bax, expected one of box sphere");
   holds(reasonOf("type: plane", "type: mesh, file: no.stl"), "/nowhere/no.stl");
-  holds(reasonOf("0.0625], spacing", "-1], spacing"), "shape `box`: a box's half size");
-  holds(reasonOf("size: [0.1, ", "size: ["), "expected three numbers");
+  holds(reasonOf("0.0625], spacing", "-1], spacing"),
+        "parameter shapes/box/size is [0.1, 0.08, -1], expected three positive numbers");
+  holds(reasonOf("size: [0.1, ", "size: ["), "expected three finite numbers");
   holds(reasonOf("step: 0.001", "step: [}"), "line 2");
   holds(reasonOf("step: 0.001", "step: 0"), "time step must be finite and positive");
-  holds(reasonOf("step: 0.001", "step: .inf"), "time step must be finite and positive");
+  holds(reasonOf("step: 0.001", "step: .inf"), "line 2: parameter step is .inf");
   holds(reasonOf("shape: box", "shape: box, mass: -2"), "body `box`, step 0: mass must be finite and positive, got -2");
-  holds(reasonOf("shape: box", "shape: box, mass: .nan"), "body `box`, step 0: mass");
-  holds(reasonOf("stiffness: 1.0e+8", "stiffness: -1"), "stiffness must be finite and not negative");
+  holds(reasonOf("shape: box", "shape: box, mass: .nan"), "line 10: parameter bodies[1]/mass is .nan");
+  holds(reasonOf("stiffness: 1.0e+8", "stiffness: -1"),
+        "line 4: parameter contact/stiffness is -1, expected a non-negative number");
   for (const char* count : {"0", "2000000000"}) {
     holds(reasonOf("damping: 1.0e+4", std::string("quadrature: midpoint, midpoint_intervals: ") + count),
-          std::string("line 4, contact: `midpoint_intervals` must be 1 to 10000, got ") + count);
+          std::string("line 4: parameter contact/midpoint_intervals is ") + count +
+              ", expected an integer from 1 to 10000");
   }
-  holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4, contact: `stiffness` occurs twice");
-  holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6, shape `box`: `traversal`: expected hierarchy or linear");
-  holds(reasonOf("spacing: 0.02", "spacing: 0"), "line 6, shape `box`: `spacing` must be finite and positive, got 0");
-  holds(reasonOf("type: plane", "type: blob, radius: 1, points: -1"), "`points` must be 4 to 1000000, got -1");
+  holds(reasonOf("damping: 1.0e+4", "stiffness: 1"), "line 4: parameter stiffness is set twice");
+  holds(reasonOf("0.02}", "0.02, traversal: foo}"), "line 6: parameter shapes/box/traversal is foo");
+  holds(reasonOf("spacing: 0.02", "spacing: 0"), "line 6: parameter shapes/box/spacing is 0");
+  holds(reasonOf("type: plane", "type: blob, radius: 1, points: -1"),
+        "points is -1, expected an integer from 4 to 1000000");
   holds(reasonOf("type: plane", "type: bowl, radius: 1, thickness: 0.1, steps: 1000000000"),
-        "`steps` must be 3 to 1000");
-  holds(reasonOf("type: box, size", "type: foo, size"), "line 6, shape `box`: type `foo` is not known");
-  holds(reasonOf("shape: box", "shape: box, mass: 1, density: 2"), "line 10, body: `mass` or `density`, not both");
+        "expected an integer from 3 to 1000");
+  holds(reasonOf("shape: box", "shape: box, mass: 1, density: 2"),
+        "line 10: parameter bodies[1]/mass is 1, expected only one of mass and density");
   holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1.5, 1, 1], spacing: [1, 1, 1]}"), "whole numbers");
   holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [1000, 1000, 1000], spacing: [1, 1, 1]}"), "at most 5000");
-  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [5000, 1, 1], spacing: [1, 1, 1]}"),
-        "more than 5000 bodies");
+  holds(reasonOf("velocity: [0.5, 0, -1]", "repeat: {count: [5000, 1, 1], spacing: [1, 1, 1]}"), "at most 5000 bodies");
   holds(reasonOf("velocity: [0.5, 0, -1]", "velocity: [0, 0, -1.0e+160]"),
         "body `box`, step 0: its energy or momentum");
   holds(reasonOf("0.0625], rpy", "1.0e+12], rpy"),
-        "line 10, body: `xyz`: body `box` is 1e+12 m from the scene's origin");
+        "line 10: parameter bodies[1]/xyz is [0, 0.25, 1e+12], expected a position at most 1e+08 m");
   for (const char* name : {"\"\"", "\"a,b\"", "\"a\\nb\"", "/a", "world"}) {
-    holds(reasonOf("name: box", std::string("name: ") + name), "line 10, body: `name`");
+    holds(reasonOf("name: box", std::string("name: ") + name), "line 10: parameter bodies[1]/name");
   }
-  holds(reasonOf("name: box", "name: ground"), "line 10, body: there are two bodies `ground`");
+  holds(reasonOf("name: box", "name: ground"), "line 10: parameter bodies[1]/name is ground");
 }
 
 TEST(SimulationFile, ShapesAreAMapAndBodiesAList) {
   const auto reasonOf = [](const std::string& rest) {
     return test::failureOf<std::exception>([&] { parseSimulation("step: 0.001\nduration: 1\n" + rest, "."); });
   };
-  EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"), "line 3, shapes: a map is expected");
-  for (const char* bodies : {"[]", "", "3", "{name: ball}"}) {
-    EXPECT_EQ(reasonOf(std::string("shapes: {}\nbodies: ") + bodies),
-              "line 4, scene: `bodies`: expected a list of at least one body")
-        << bodies;
+  EXPECT_EQ(reasonOf("shapes: [1, 2]\nbodies: []"),
+            "line 3: parameter shapes is [1, 2], expected a group of parameters");
+  EXPECT_EQ(reasonOf("shapes: {}\nbodies: []"), "line 4: parameter bodies is [], expected a list of at least one body");
+  for (const char* bodies : {"", "3", "{name: ball}"}) {
+    EXPECT_EQ(reasonOf(std::string("shapes: {}\nbodies: ") + bodies).find("line 4: parameter bodies "), 0u) << bodies;
   }
 }
 

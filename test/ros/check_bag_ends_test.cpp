@@ -89,13 +89,13 @@ TEST_F(CheckBag, BadBagsAreRefused) {
     expectRefused(check("arm.bag", "no", option), std::string(option).substr(0, std::string(option).find(' ')));
   }
   write("bad.yaml", "rate: fast\n");
-  expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: parameter ~/rate is fast");
+  expectRefused(check("arm.bag", "no", "--config bad.yaml"), "bad.yaml: line 1: parameter ~/rate is fast");
   write("bad.yaml", "filed: {cell_size: 0.01}\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"),
                 "bad.yaml: unknown parameter ~/filed, did you mean field?");
   write("bad.yaml", "world: [{name: ball, type: sphere, radius: 0.1, xzy: [1, 2, 3]}]\n");
   expectRefused(check("arm.bag", "no", "--config bad.yaml"),
-                "bad.yaml: unknown parameter ~/world[0]/xzy, did you mean xyz?");
+                "bad.yaml: line 1: unknown parameter ~/world[0]/xzy, did you mean xyz?");
   write("bad.yaml", "rate: fast\n");
   expectRefused(check("arm.bag", "no", "--srdf missing.srdf"), "missing.srdf");
   expectRefused(check("arm.bag", "no", "--srdf bad.yaml"), "bad.yaml: the SRDF cannot be parsed: line 1");

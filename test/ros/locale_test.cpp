@@ -4,9 +4,9 @@
 #include "oracle/files.h"
 #include "oracle/german_locale.h"
 #include "ros/parameters/moveit_scene.h"
-#include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/world_file.h"
-#include "ros/parameters/yaml_parameters.h"
+#include "settings/settings_reader.h"
+#include "settings/yaml_settings.h"
 
 namespace sdf_ccd::locale_test {
 
@@ -23,12 +23,11 @@ class RosLocale : public ::testing::Test {
 TEST_F(RosLocale, YamlIsTheSameInEveryLocale) {
   SDF_CCD_NEEDS_GERMAN_LOCALE();
   const test::GermanLocale german;
-  XmlRpc::XmlRpcValue tree = loadYamlParameters(write("a.yaml", "a: 1.5\nb: -2.5e-3\nc: 1.5e3\nd: 12345"));
-  EXPECT_EQ(double(tree["a"]), 1.5);
-  EXPECT_EQ(double(tree["b"]), -2.5e-3);
-  ParameterReader reader(tree, "/monitor");
-  EXPECT_EQ(reader.number("c", 0.0), 1500.0);  // a text in YAML
-  EXPECT_EQ(reader.integer("d", 0, 1), 12345);
+  SettingsReader reader(parseYaml("a: 1.5\nb: -2.5e-3\nc: 1.5e3\nd: 12345"), "/monitor");
+  EXPECT_EQ(reader.number("a"), 1.5);
+  EXPECT_EQ(reader.number("b"), -2.5e-3);
+  EXPECT_EQ(reader.number("c"), 1500.0);  // a text in YAML
+  EXPECT_EQ(reader.integer("d", {}, 1), 12345);
   const auto world =
       loadWorldFile(write("w.yaml", "world:\n  - {name: q, type: sphere, radius: 0.125, xyz: [1.5, 0.25, 0.75]}\n"));
   ASSERT_EQ(world.size(), 1u);

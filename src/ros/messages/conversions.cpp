@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "monitor/pair_result.h"
-#include "ros/tf/valid_pose.h"
+#include "motion/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {

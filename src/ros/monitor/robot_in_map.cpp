@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "motion/valid_pose.h"
 #include "ros/tf/seconds_between.h"
-#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 

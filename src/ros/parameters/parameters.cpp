@@ -8,8 +8,9 @@
 #include "body/body_options.h"
 #include "common/number_text.h"
 #include "model/error_budget.h"
-#include "ros/parameters/parameter_reader.h"
+#include "ros/parameters/server_parameters.h"
 #include "ros/parameters/world_parameters.h"
+#include "settings/scene_settings.h"
 
 namespace sdf_ccd {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kLongestCycle = 3600.0;    // transforms have to be kept for th
 constexpr std::size_t kMaxRules = 1000;     // each is matched with each pair
 constexpr double kByRate = -1.0;            // max_cycle_time: a share of the period
 
-std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key) {
+std::vector<PairRule> readRules(SettingsReader& reader, const std::string& key) {
   std::vector<PairRule> rules;
   for (const auto& [a, b] : reader.textPairs(key)) rules.push_back({a, b});
   if (rules.size() > kMaxRules) reader.fail(key, "at most " + std::to_string(kMaxRules) + " pairs");
@@ -29,26 +30,25 @@ std::vector<PairRule> readRules(ParameterReader& reader, const std::string& key)
 
 /// Options of fields and shells for contacts: their resolution follows contact/accuracy or else the sizes of the
 /// elements; the parameters field and shell override it.
-BodyOptions readScene(ParameterReader& reader) {
-  ParameterReader contact = reader.group("contact");
+BodyOptions readScene(SettingsReader& reader, SettingsReader& contact) {
   std::optional<double> accuracy;
-  if (contact.has("accuracy")) accuracy = contact.positive("accuracy", 0.0);
+  if (contact.has("accuracy")) accuracy = contact.positive("accuracy");
   BodyOptions scene = optionsForContacts(accuracy);
 
-  ParameterReader field = reader.group("field");
+  SettingsReader field = reader.group("field");
   const int given = field.has("cells") + field.has("cell_size") + field.has("max_error");
   if (given > 1) field.fail("cells", "only one of cells, cell_size and max_error to be set");
   if (given > 0) setFieldResolution({}, scene);
-  if (field.has("cells")) scene.field.cells = field.integer("cells", 0, 2);
-  if (field.has("max_error")) scene.field.max_error = field.positive("max_error", 0.0);
-  if (field.has("cell_size")) scene.field.cell_size = field.positive("cell_size", 0.0);
+  if (field.has("cells")) scene.field.cells = field.integer("cells", {}, 2);
+  if (field.has("max_error")) scene.field.max_error = field.positive("max_error");
+  if (field.has("cell_size")) scene.field.cell_size = field.positive("cell_size");
   scene.field.band = field.notNegative("band", scene.field.band);
   const double megabytes = field.positive("max_megabytes", static_cast<double>(scene.field.max_bytes >> 20));
   scene.field.max_bytes = static_cast<std::size_t>(megabytes * (1 << 20));
   field.finish();
 
-  ParameterReader shell = reader.group("shell");
-  if (shell.has("spacing")) setShellSpacing(shell.positive("spacing", 0.0), scene);
+  SettingsReader shell = reader.group("shell");
+  if (shell.has("spacing")) setShellSpacing(shell.positive("spacing"), scene);
   scene.shell.edge_gap = shell.notNegative("edge_gap", scene.shell.edge_gap);
   scene.shell.vertex_spacing = shell.notNegative("vertex_spacing", scene.shell.vertex_spacing);
   scene.shell.seed = shell.integer("seed", static_cast<int>(scene.shell.seed), 0);
@@ -57,7 +57,7 @@ BodyOptions readScene(ParameterReader& reader) {
 }
 
 /// Sets the error bound of verdicts, and the part of it for motions between transforms.
-void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
+void readMaxError(SettingsReader& reader, MonitorParameters& parameters) {
   double& max_error = parameters.monitor.max_error;
   max_error = reader.positive("max_error", max_error);
   if (max_error < kMinMaxError || max_error > kLargestMaxError)
@@ -66,18 +66,18 @@ void readMaxError(ParameterReader& reader, MonitorParameters& parameters) {
   ChordOptions& chords = parameters.monitor.chords;
   double& sampling = parameters.tf.sampling.tolerance;
   sampling = samplingTolerance(max_error, chords.tolerance);
-  if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance", 0.0);
+  if (reader.has("chord_tolerance")) sampling = chords.tolerance = reader.positive("chord_tolerance");
   setMotionErrors(sampling, chords.tolerance, parameters.scene);
 }
 
 /// What holds for single pairs: `pairs: [{bodies: [a, b], stop_distance: …}]`.
-std::vector<PairLimit> readPairLimits(ParameterReader& reader) {
+std::vector<PairLimit> readPairLimits(SettingsReader& reader) {
   std::vector<PairLimit> limits;
-  for (ParameterReader& entry : reader.list("pairs")) {
+  for (SettingsReader& entry : reader.list("pairs")) {
     const std::vector<std::string> bodies = entry.texts("bodies");
     if (bodies.size() != 2) entry.fail("bodies", "two names or patterns of bodies");
     PairLimit limit{{bodies[0], bodies[1]}};
-    if (entry.has("stop_distance")) limit.stop_distance = entry.notNegative("stop_distance", 0.0);
+    if (entry.has("stop_distance")) limit.stop_distance = entry.notNegative("stop_distance");
     entry.finish();
     limits.push_back(limit);
   }
@@ -85,7 +85,7 @@ std::vector<PairLimit> readPairLimits(ParameterReader& reader) {
   return limits;
 }
 
-ProximityParameters readProximity(ParameterReader& reader) {
+ProximityParameters readProximity(SettingsReader& reader) {
   ProximityParameters proximity;
   proximity.report_distance = reader.notNegative("report_distance", 0.0);
   ProximityThresholds& thresholds = proximity.thresholds;
@@ -96,7 +96,7 @@ ProximityParameters readProximity(ParameterReader& reader) {
     reader.fail("warning_distance", "no less than stop_distance");
   }
   proximity.pairs = readPairLimits(reader);
-  ParameterReader scale = reader.group("velocity_scale");
+  SettingsReader scale = reader.group("velocity_scale");
   StoppingPromise promise;
   promise.stop_distance = thresholds.stop;
   const bool is_wanted = scale.has("max_speed");
@@ -106,7 +106,7 @@ ProximityParameters readProximity(ParameterReader& reader) {
   promise.reaction_time = scale.notNegative("reaction_time", promise.reaction_time);
   promise.period = scale.positive("period", promise.period);
   promise.max_age = scale.positive("max_age", promise.max_age);
-  promise.own_pairs = static_cast<OwnPairs>(scale.choice("own_pairs", {"measured", "promise"}, 0));
+  promise.own_pairs = scale.choice("own_pairs", {"measured", "promise"}, promise.own_pairs);
   scale.finish();
   const auto limits = [](const StoppingPromise& p) {
     return std::tie(p.max_acceleration, p.deceleration, p.reaction_time, p.period, p.max_age, p.own_pairs);
@@ -117,9 +117,9 @@ ProximityParameters readProximity(ParameterReader& reader) {
   return proximity;
 }
 
-TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& parameters) {
+TriggerOptions readTrigger(SettingsReader& reader, const MonitorParameters& parameters) {
   TriggerOptions trigger;
-  trigger.kind = static_cast<TriggerKind>(reader.choice("trigger", {"timer", "tf", "joint_states", "frames"}, 0));
+  trigger.kind = reader.choice("trigger", {"timer", "tf", "joint_states", "frames"}, trigger.kind);
   for (const std::string& frame : reader.texts("trigger_frames")) trigger.frames.push_back(withoutLeadingSlash(frame));
   if (trigger.kind == TriggerKind::kFrames && trigger.frames.empty()) {
     reader.fail("trigger_frames", "one frame or more, as trigger is frames");
@@ -130,31 +130,14 @@ TriggerOptions readTrigger(ParameterReader& reader, const MonitorParameters& par
   return trigger;
 }
 
-ContactJoin readJoin(ParameterReader& reader, const ContactJoin& preset) {
+ContactJoin readJoin(SettingsReader& reader, const ContactJoin& preset) {
   const double time = reader.notNegative("join_time", std::chrono::duration<double>(preset.time).count());
   if (time > kLongestCycle) reader.fail("join_time", "at most an hour");
   const auto rounded = std::chrono::nanoseconds(std::llround(1e9 * time));
   return {std::max(ContactTracker::kJoin, rounded), reader.notNegative("join_distance", preset.distance)};
 }
 
-ContactOptions readContact(ParameterReader reader, ContactJoin& join) {
-  join = readJoin(reader, join);
-  ContactOptions contact;
-  contact.stiffness_per = static_cast<StiffnessPer>(
-      reader.choice("stiffness_per", {"area", "point"}, static_cast<int>(contact.stiffness_per)));
-  contact.stiffness = reader.notNegative("stiffness", contact.stiffness);
-  contact.damping = reader.notNegative("damping", contact.damping);
-  contact.normal =
-      static_cast<NormalSource>(reader.choice("normal", {"field", "shell"}, static_cast<int>(contact.normal)));
-  contact.quadrature =
-      static_cast<Quadrature>(reader.choice("quadrature", {"exact", "midpoint"}, static_cast<int>(contact.quadrature)));
-  contact.midpoint_intervals = reader.integer("midpoint_intervals", contact.midpoint_intervals, 1);
-  reader.positive("accuracy", 1.0);  // used in readScene()
-  reader.finish();
-  return contact;
-}
-
-RequestPermissions readRequests(ParameterReader reader) {
+RequestPermissions readRequests(SettingsReader reader) {
   RequestPermissions requests;
   if (reader.has("allow")) {
     try {
@@ -168,11 +151,10 @@ RequestPermissions readRequests(ParameterReader reader) {
   return requests;
 }
 
-OctomapObject readOctomap(ParameterReader reader, LiveMapParameters& live) {
+OctomapObject readOctomap(SettingsReader reader, LiveMapParameters& live) {
   OctomapObject octomap;
   live.topic = reader.name("topic", "");
-  live.unknown = static_cast<UnknownSpace>(
-      reader.choice("unknown", {"free", "occupied", "occupied_near"}, static_cast<int>(live.unknown)));
+  live.unknown = reader.choice("unknown", {"free", "occupied", "occupied_near"}, live.unknown);
   live.unknown_distance = reader.notNegative("unknown_distance", live.unknown_distance);
   live.padding = reader.notNegative("padding", live.padding);
   live.max_age = reader.notNegative("max_age", live.max_age);
@@ -200,8 +182,8 @@ std::string findDescription(const ros::NodeHandle& private_node, const std::stri
 
 }  // namespace
 
-MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name) {
-  ParameterReader reader(tree, name);
+MonitorParameters parseParameters(const Setting& tree, const std::string& name) {
+  SettingsReader reader(tree, name);
   MonitorParameters parameters;
 
   parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
@@ -215,8 +197,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
 
   parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};
-  parameters.overlapping_pairs = static_cast<OverlapRule::Kind>(
-      reader.choice("overlapping_pairs", {"neighbours", "rest", "leave_out", "check"}, 0));
+  parameters.overlapping_pairs =
+      reader.choice("overlapping_pairs", {"neighbours", "rest", "leave_out", "check"}, parameters.overlapping_pairs);
 
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");
@@ -227,7 +209,8 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   parameters.request_time = reader.positive("request_time", parameters.request_time);
   if (parameters.request_time > kLongestRequest) reader.fail("request_time", "at most an hour");
   parameters.octomap = readOctomap(reader.group("octomap"), parameters.live_map);
-  parameters.scene = readScene(reader);
+  SettingsReader contact = reader.group("contact");
+  parameters.scene = readScene(reader, contact);
   parameters.scene.max_preparation_time = reader.positive("max_preparation_time", kPreparationTime);
   if (reader.flag("cache", true)) {
     parameters.scene.cache_directory = reader.text("cache_directory", "");
@@ -236,7 +219,9 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
     reader.text("cache_directory", "");
   }
 
-  parameters.monitor.contact = readContact(reader.group("contact"), parameters.contact_join);
+  parameters.monitor.contact = readContact(contact);
+  parameters.contact_join = readJoin(contact, parameters.contact_join);
+  contact.finish();
   readMaxError(reader, parameters);
   ChordOptions& chords = parameters.monitor.chords;
   chords.max_chords = reader.integer("max_chords", chords.max_chords, 1);
@@ -255,7 +240,7 @@ MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::st
   if (parameters.proximity.promise) parameters.proximity.promise->map_distance = parameters.live_map.padding;
   parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.log_contacts = reader.flag("log_contacts", true);
-  parameters.refine = static_cast<Refinement>(reader.choice("refine", {"none", "deepest"}, 0));
+  parameters.refine = reader.choice("refine", {"none", "deepest"}, parameters.refine);
   parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
@@ -281,7 +266,7 @@ double cycleTimeLimit(const MonitorParameters& parameters) {
 MonitorParameters readParameters(const ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue tree;
   private_node.getParam("", tree);
-  MonitorParameters parameters = parseParameters(tree, private_node.getNamespace());
+  MonitorParameters parameters = parseParameters(toSetting(tree), private_node.getNamespace());
   parameters.urdf = findDescription(private_node, parameters.urdf_parameter);
   if (parameters.urdf.empty()) {
     throw MissingDescription("parameter " + parameters.urdf_parameter + " is missing, expected a robot's URDF");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,13 @@
 #include "robot_monitor/overlapping_pairs.h"
 #include "robot_monitor/robot_pair_traits.h"
 #include "ros/messages/markers.h"
-#include "ros/parameters/parameter_reader.h"
 #include "ros/parameters/request_permissions.h"
 #include "ros/parameters/world_object.h"
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_scene.h"
+#include "settings/setting.h"
 
 namespace sdf_ccd {
 
@@ -96,18 +97,17 @@ double cycleTimeLimit(const MonitorParameters& parameters);
 std::string whyNoCycleTime(double max_cycle_time);
 
 /// Thrown while the robot's description is not set; it may be set later.
-struct MissingDescription : ParameterError {
-  using ParameterError::ParameterError;
+struct MissingDescription : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Reads and checks all parameters but the descriptions, which are left empty.
-/// @param tree  a struct, or anything else if there are no parameters.
 /// @param name  of the tree, for errors: "/collision_monitor".
-/// @throws ParameterError naming the parameter and its value.
-MonitorParameters parseParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name);
+/// @throws std::runtime_error naming the parameter and its value.
+MonitorParameters parseParameters(const Setting& tree, const std::string& name);
 
 /// Reads and checks all parameters from a private namespace, with the robot's descriptions.
-/// @throws MissingDescription, else ParameterError naming the parameter and its value.
+/// @throws MissingDescription, else std::runtime_error naming the parameter and its value.
 MonitorParameters readParameters(const ros::NodeHandle& private_node);
 
 }  // namespace sdf_ccd

@@ -6,7 +6,7 @@
 #include "common/text_limits.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_parameters.h"
-#include "ros/parameters/yaml_parameters.h"
+#include "settings/yaml_settings.h"
 #include "storage/regular_file.h"
 
 namespace sdf_ccd {
@@ -17,12 +17,12 @@ std::vector<WorldObject> loadWorldFile(const std::string& file) {
 
 std::vector<WorldObject> parseWorldFile(const std::string& text, const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
-  if (ending == ".yaml" || ending == ".yml") {
-    ParameterReader reader(parseYamlParameters(text, file), file);
-    if (!reader.has("world")) throw std::runtime_error(file + ": there is no `world` in it");
-    return readWorld(reader);
-  }
   try {
+    if (ending == ".yaml" || ending == ".yml") {
+      SettingsReader reader(parseYaml(text), "");
+      if (!reader.has("world")) throw std::runtime_error("there is no `world` in it");
+      return readWorld(reader);
+    }
     if (ending != ".scene") throw std::runtime_error("a world's file must end in .yaml, .yml or .scene");
     return parseMoveitScene(text);
   } catch (const std::exception& error) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/generated_mesh.h"
-#include "ros/tf/valid_pose.h"
+#include "motion/valid_pose.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ros/tf/valid_pose.h"
+#include "motion/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {

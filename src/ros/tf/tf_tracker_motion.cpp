@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "common/number_text.h"
+#include "motion/valid_pose.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_tracker.h"
-#include "ros/tf/valid_pose.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,18 +2,18 @@
 
 #include <stdexcept>
 
-#include "ros/parameters/yaml_parameters.h"
+#include "settings/yaml_settings.h"
 #include "tools/read_text.h"
 
 namespace sdf_ccd::tools {
 namespace {
 
 /// The parameter tree, overridden by the options.
-XmlRpc::XmlRpcValue parameterTree(const MonitorConfig& config) {
-  XmlRpc::XmlRpcValue tree;
-  if (!config.parameters.empty()) tree = loadYamlParameters(config.parameters);
-  if (config.rate) tree["rate"] = *config.rate;
-  if (config.max_error) tree["max_error"] = *config.max_error;
+Setting parameterTree(const MonitorConfig& config) {
+  Setting tree = config.parameters.empty() ? Setting() : loadYaml(config.parameters);
+  auto& group = std::get<Setting::Group>(tree.value);
+  if (config.rate) group["rate"] = {*config.rate};
+  if (config.max_error) group["max_error"] = {*config.max_error};
   return tree;
 }
 
@@ -21,11 +21,11 @@ XmlRpc::XmlRpcValue parameterTree(const MonitorConfig& config) {
 
 MonitorParameters readParameters(const MonitorConfig& config) {
   const std::string prefix = config.parameters.empty() ? "" : config.parameters + ": ";
-  const XmlRpc::XmlRpcValue tree = parameterTree(config);
+  const Setting tree = parameterTree(config);
   MonitorParameters parameters;
   try {
     parameters = parseParameters(tree, "~");
-  } catch (const ParameterError& error) {
+  } catch (const std::exception& error) {
     throw std::runtime_error(prefix + error.what());
   }
   parameters.urdf = readText(config.urdf);

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include "settings/setting.h"
+
+namespace sdf_ccd {
+
+/// A parameter of the parameter server; an empty group if it is not set.
+Setting toSetting(XmlRpc::XmlRpcValue value);
+
+}  // namespace sdf_ccd
