@@ -118,8 +118,7 @@ class Tree {
       if (known_.insert(name).second) {
         links_.push_back(name);
       } else {
-        warn("link " + shownText(name) + ": a second link has this name, and is left out");
-        robot_.DeleteChild(link);
+        robot_.DeleteChild(link);  // ParsedUrdf::unread names it
       }
       link = next;
     }

@@ -1,10 +1,10 @@
 #include "parse_urdf.h"
 
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include <console_bridge/console.h>
 #include <tinyxml2.h>
@@ -14,13 +14,14 @@
 #include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "joint_tree.h"
-#include "misplaced_elements.h"
 #include "readable_link.h"
-#include "unexpanded_macros.h"
-#include "xml_error.h"
+#include "unread_shapes.h"
+#include "xml_text.h"
 
 namespace sdf_ccd {
 namespace {
+
+using tinyxml2::XMLElement;
 
 /// Collects this thread's console_bridge messages during its lifetime; forwards those of other threads (tf2 logs too).
 class MessageCollector : public console_bridge::OutputHandler {
@@ -51,7 +52,7 @@ class MessageCollector : public console_bridge::OutputHandler {
 std::mutex handler_mutex;  // one output handler for the whole process
 
 /// Changes a robot so that urdfdom reads all that matters here.
-void makeRobotReadable(tinyxml2::XMLElement& robot, std::vector<std::string>& warnings) {
+void makeRobotReadable(XMLElement& robot, std::vector<std::string>& warnings) {
   constexpr std::size_t kMaxLinks = 10'000;
   std::size_t links = 0;
   for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) ++links;
@@ -60,73 +61,77 @@ void makeRobotReadable(tinyxml2::XMLElement& robot, std::vector<std::string>& wa
   }
   if (!robot.Attribute("name")) robot.SetAttribute("name", "robot");
   robot.DeleteAttribute("version");  // the parser refuses those that it does not know
-  while (tinyxml2::XMLElement* material = robot.FirstChildElement("material")) robot.DeleteChild(material);
+  while (XMLElement* material = robot.FirstChildElement("material")) robot.DeleteChild(material);
   for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) makeReadable(*link);
   makeTree(robot, warnings);
 }
 
-/// Whether it has an element of xacro, definitions included.
-bool hasMacros(const tinyxml2::XMLElement& element) {
-  if (std::string(element.Name()).rfind("xacro:", 0) == 0) return true;
-  for (auto child = element.FirstChildElement(); child; child = child->NextSiblingElement())
-    if (hasMacros(*child)) return true;
-  return false;
+std::string lineOf(const XMLElement& element) {
+  return "line " + std::to_string(element.GetLineNum()) + " of the URDF: ";
 }
 
-/// What a document is that is no URDF, or is none yet; empty if nothing is known about it.
-std::string otherKind(const std::string& xml) {
-  tinyxml2::XMLDocument document;
-  if (xml.size() > kMaxXmlBytes || document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) return {};
-  const tinyxml2::XMLElement* root = document.RootElement();
-  if (!root) return {};
-  const std::string name = root->Name();
-  if (name == "sdf" || name == "gazebo")
-    return "it is a model of Gazebo (SDF, its root is <" + name + ">), not a URDF: give the URDF of the same robot";
-  if (name != "robot") return "its root is <" + shownText(name) + ">, that of a URDF is <robot>";
-  if (hasMacros(*root))
-    return "it is a xacro file that has not been expanded: run `xacro FILE > robot.urdf`, and give robot.urdf";
-  return {};
-}
-
-/// The document as written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents.
-std::string wellFormed(const std::string& xml, std::vector<std::string>& warnings) {
-  requireXmlSize(xml);
-  const std::string text = soundText(xml);
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) throw std::runtime_error(xmlError(document));
-  if (const std::string macros = unexpandedMacros(document, "URDF"); !macros.empty()) warnings.push_back(macros);
-  if (tinyxml2::XMLElement* robot = document.FirstChildElement("robot")) {
-    const std::vector<std::string> misplaced = misplacedElements(*robot);
-    warnings.insert(warnings.end(), misplaced.begin(), misplaced.end());
-    makeRobotReadable(*robot, warnings);
+/// Links with a shape that urdfdom passes over, or with the name of another one.
+std::map<std::string, std::string> passedOver(const XMLElement& robot) {
+  std::map<std::string, std::string> reasons;
+  std::set<std::string> names;
+  for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+    const std::string name = soundText(linkName(*link)), shape = unreadShape(*link);
+    if (!names.insert(name).second) {
+      reasons[name] = lineOf(*link) + "a second link has this name";
+    } else if (!shape.empty()) {
+      reasons[name] = shape;
+    }
   }
-  tinyxml2::XMLPrinter printer(nullptr, true);
-  document.Print(&printer);
-  return soundText(printer.CStr());  // again: references like &#27; are characters by now
+  return reasons;
 }
 
-std::shared_ptr<urdf::ModelInterface> parse(const std::string& xml, std::vector<std::string>& warnings) {
-  const auto refuse = [&](const std::string& reason) {
-    const std::string kind = otherKind(soundText(xml));
-    throw std::runtime_error("the URDF cannot be parsed: " + kind + (kind.empty() ? "" : " (") + reason +
-                             (kind.empty() ? "" : ")"));
-  };
-  std::string text;
-  try {
-    text = wellFormed(xml, warnings);
-  } catch (const std::exception& error) {
-    refuse(error.what());
+/// Adds the links of which urdfdom has not read all collision elements.
+void addDropped(const XMLElement& robot, ParsedUrdf& parsed) {
+  for (auto link = robot.FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+    std::size_t written = 0;
+    for (auto each = link->FirstChildElement("collision"); each; each = each->NextSiblingElement("collision"))
+      ++written;
+    const std::string name = soundText(linkName(*link));
+    const std::size_t read = parsed.model->links_.at(name)->collision_array.size();
+    if (read == written || parsed.unread.count(name) > 0) continue;
+    tinyxml2::XMLPrinter printer(nullptr, true);
+    link->Accept(&printer);
+    parsed.unread[name] = lineOf(*link) + std::to_string(written - read) + " of " + std::to_string(written) +
+                          " collision elements cannot be read: " +
+                          urdfErrors(std::string("<robot name=\"link\">") + printer.CStr() + "</robot>");
   }
+}
+
+std::shared_ptr<urdf::ModelInterface> modelOf(const std::string& text) {
   const std::lock_guard<std::mutex> lock(handler_mutex);
   MessageCollector collector;
   std::shared_ptr<urdf::ModelInterface> model;
   try {
     model = urdf::parseURDF(text);
   } catch (const std::exception& error) {
-    refuse((collector.errors().empty() ? "" : collector.errors() + "; ") + error.what());
+    throw std::runtime_error((collector.errors().empty() ? "" : collector.errors() + "; ") + error.what());
   }
-  if (!model || !model->getRoot()) refuse(collector.errors().empty() ? "it is no XML document" : collector.errors());
+  if (!model || !model->getRoot()) throw std::runtime_error(collector.errors());
   return model;
+}
+
+/// @param macro  set to unexpandedMacro(), also if it throws.
+ParsedUrdf read(const std::string& xml, std::string& macro) {
+  tinyxml2::XMLDocument document;
+  XMLElement& robot = parseRobotXml(xml, document);
+  ParsedUrdf parsed;
+  macro = unexpandedMacro(robot, "URDF");
+  if (!macro.empty()) parsed.warnings.push_back(macro);
+  for (std::string& line : shapesOutsideLinks(robot)) parsed.warnings.push_back(std::move(line));
+  parsed.unread = passedOver(robot);
+  makeRobotReadable(robot, parsed.warnings);
+  // As written by tinyxml2, because urdfdom's XML reader reads beyond the end of some damaged documents; checked again,
+  // as references like &#27; are characters by now.
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  robot.Accept(&printer);
+  parsed.model = modelOf(soundText(printer.CStr()));
+  addDropped(robot, parsed);
+  return parsed;
 }
 
 /// Some URDFs have limits in the wrong order; without this every position would be beyond a limit.
@@ -140,10 +145,16 @@ void orderLimits(urdf::Joint& joint, std::vector<std::string>& warnings) {
 
 }  // namespace
 
-std::shared_ptr<urdf::ModelInterface> parseUrdf(const std::string& xml, std::vector<std::string>& warnings) {
-  const auto model = parse(xml, warnings);
-  for (const auto& joint : model->joints_) orderLimits(*joint.second, warnings);
-  return model;
+ParsedUrdf parseUrdf(const std::string& xml) {
+  std::string macro;
+  try {
+    ParsedUrdf parsed = read(xml, macro);
+    for (const auto& joint : parsed.model->joints_) orderLimits(*joint.second, parsed.warnings);
+    return parsed;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("the URDF cannot be parsed: ") + error.what() +
+                             (macro.empty() ? "" : "; " + macro));
+  }
 }
 
 std::string urdfErrors(const std::string& xml) {

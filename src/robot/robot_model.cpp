@@ -8,13 +8,16 @@
 #include "error_source.h"
 #include "joint_motion.h"
 #include "parse_urdf.h"
-#include "unread_links.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {
 
-RobotModel::RobotModel(const std::string& urdf_xml, const std::string& source) try
-    : urdf_(parseUrdf(urdf_xml, warnings_)), root_(urdf_->getRoot()->name), unread_(unreadLinks(*urdf_, urdf_xml)) {
+RobotModel::RobotModel(const std::string& urdf_xml, const std::string& source) try {
+  ParsedUrdf parsed = parseUrdf(urdf_xml);
+  urdf_ = std::move(parsed.model);
+  root_ = urdf_->getRoot()->name;
+  unread_ = std::move(parsed.unread);
+  warnings_ = std::move(parsed.warnings);
   std::vector<std::pair<const urdf::Link*, int>> open = {{urdf_->getRoot().get(), -1}};
   while (!open.empty()) {
     const auto [link, parent] = open.back();

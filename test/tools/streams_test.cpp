@@ -79,9 +79,9 @@ TEST_F(ToolStreams, WhatIsNoUrdfIsSaid) {
         "</xacro:macro><xacro:m x='a'/></robot>");
   write("scene.xml", "<mujoco model='m'/>");
   for (const std::string command : {"build --out made --urdf ", "learn-pairs --out a.srdf --urdf "}) {
-    expectRefused(command + "model.sdf", "model.sdf: the URDF cannot be parsed: it is a model of Gazebo (SDF");
-    expectRefused(command + "a.xacro", "it is a xacro file that has not been expanded: run `xacro FILE > robot.urdf`");
-    expectRefused(command + "scene.xml", "its root is <mujoco>, that of a URDF is <robot>");
+    expectRefused(command + "model.sdf", "model.sdf: the URDF cannot be parsed: its root is <sdf>, not <robot>");
+    expectRefused(command + "a.xacro", "line 1 of the URDF: xacro has not expanded it");
+    expectRefused(command + "scene.xml", "its root is <mujoco>, not <robot>");
   }
 }
 
