@@ -15,6 +15,9 @@ namespace {
 constexpr std::size_t kMaxTriangles = 8'000'000;              // about a gigabyte
 constexpr std::size_t kMaxVoxelBytes = std::size_t{1} << 28;  // of the box around the occupied ones, a bit each
 
+/// An opening is a crack if no point of its cap is farther from the mesh [m]: what is inside did not come through it.
+constexpr double kCrack = 2.5e-4;
+
 /// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
 /// which would need more than 3,500 sides.
 double cylinderDeviation(const Cylinder& cylinder) {
@@ -143,6 +146,9 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
     // The boundary of the solid is the whole mesh, and closed with the caps, or where its faces are joined.
     const ClosedSolid& solid = SolidSource(pooled.mesh, pooled.made).closed();
     all.add(solid.openings().caps, geometry.X_BG);
+    const std::vector<double>& reach = solid.openings().reach;
+    made->is_cracked =
+        made->elements == 1 && std::all_of(reach.begin(), reach.end(), [](double r) { return r <= kCrack; });
     made->deviation = std::max(made->deviation, solid.moved());
   }
   made->components = std::move(all.components);
@@ -190,6 +196,7 @@ bool BodyTriangles::isOutside(const Vector3d& p) const {
 }
 
 bool BodyTriangles::isInside(const Vector3d& p) const {
+  if (closed && is_cracked) return windingNumber(*closed, p, [](int) { return true; }).value_or(0) != 0;
   for (int k = 0; k < elements; ++k) {
     if (const Voxels* const of_map = voxelsOf(k)) {
       if (of_map->solid->contains(of_map->X_GB * p, slackOf(*of_map, p))) return true;

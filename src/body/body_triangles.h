@@ -20,6 +20,7 @@ struct BodyTriangles {
   std::unique_ptr<const BoxTree> closed;  ///< with caps in all openings (see findOpenings()); null without any
   std::vector<int> element;               ///< per triangle of `tree`; empty if there is only one element
   int elements = 1;                       ///< their number
+  bool is_cracked = false;                ///< one element, whose openings are cracks: it is solid all the same
   double deviation = 0.0;                 ///< of the triangles from the surface: of cylinders, voxels, joined faces [m]
 
   struct Voxels {

@@ -91,7 +91,7 @@ class SurfacePair {
   /// it is inside all the time.
   ContactPoint contactInside(const InsidePoint& inside) const;
 
-  /// Looks at up to 17 times of the motion for a certain contact: a crossing, or a point of one body's surface inside
+  /// Looks at a few times of the motion for a certain crossing, and at its end for a point of one body's surface inside
   /// the other, deeper than all errors. decide() may find none where surfaces also graze each other, or cross without
   /// an edge that certainly pierces a triangle: bricks whose sides are flush. Empty if none is found.
   std::optional<ContactPoint> findContact(double motion_error, SeparationMemory& memory);

@@ -396,16 +396,14 @@ TEST_F(CheckBag, MaxErrorIsKeptByABodyOfSeveralElements) {
 }
 
 TEST_F(CheckBag, ABoundAboveMaxErrorIsAWarning) {
-  write("ground.yaml",  // two planes in one body, which only a field describes
-        "world: {collision_objects: [{id: ground, planes: [{coef: [0, 0, 1, 0.2]}, {coef: [0, 0, 1, 0.3]}],\n"
-        "  plane_poses: [{position: [0, 0, 0]}, {position: [0, 0, 0]}]}]}\n"
+  write("silo.yaml",  // the ground, so large that its triangles deviate by 40 um
+        "world: [{name: silo, type: cylinder, radius: 100.0, length: 2.0, xyz: [0, 0, -1.2]}]\n"
         "cache_directory: cache\n");
   const ToolRun result = run("check-bag arm.bag --urdf " SDF_CCD_SOURCE_DIR
-                             "/config/demo/arm.urdf --config ground.yaml --out made --max-error 0.001");
+                             "/config/demo/arm.urdf --config silo.yaml --out made --max-error 1e-5");
   EXPECT_EQ(result.exit_code, kDone) << result.error;
   EXPECT_EQ(result.error.find("sdf_ccd: warning: the error bound is "), 0u) << result.error;
-  EXPECT_NE(result.error.find("more than the max_error of 1 mm: ground is used only as a field"), std::string::npos)
-      << result.error;
+  EXPECT_NE(result.error.find("more than the max_error of 0.01 mm: "), std::string::npos) << result.error;
 }
 
 TEST_F(CheckBag, PairsAreLearnedFromABag) {
