@@ -150,11 +150,11 @@ bool SettingsReader::flag(const std::string& key, bool fallback) {
   return read(key, std::make_optional(fallback), "true or false", as<bool>);
 }
 
-std::string SettingsReader::text(const std::string& key, std::optional<std::string> fallback) {
+std::string SettingsReader::text(const std::string& key, const std::optional<std::string>& fallback) {
   return read(key, fallback, "a string", fallback ? as<std::string> : nonEmptyText);
 }
 
-std::string SettingsReader::name(const std::string& key, std::optional<std::string> fallback) {
+std::string SettingsReader::name(const std::string& key, const std::optional<std::string>& fallback) {
   std::string value = text(key, fallback);
   if (value.size() > kMaxName || value != shownText(value)) {
     fail(key, "at most " + std::to_string(kMaxName) + " bytes without control characters");

@@ -37,11 +37,11 @@ class SettingsReader {
   int integer(const std::string& key, std::optional<int> fallback, int smallest,
               int largest = std::numeric_limits<int>::max());
   bool flag(const std::string& key, bool fallback);
-  std::string text(const std::string& key, std::optional<std::string> fallback = {});
+  std::string text(const std::string& key, const std::optional<std::string>& fallback = {});
 
   /// The name of a frame or a body, which is part of messages and tables: at most 256 bytes, on one line. It may be
   /// empty only as the fallback.
-  std::string name(const std::string& key, std::optional<std::string> fallback = {});
+  std::string name(const std::string& key, const std::optional<std::string>& fallback = {});
 
   /// Index of the value among `choices`, which an enum numbers.
   int choice(const std::string& key, const std::vector<std::string>& choices, std::optional<int> fallback = {});
