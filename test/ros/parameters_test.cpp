@@ -123,7 +123,7 @@ TEST(Parameters, NumbersAreRejectedBeyondTheirLimitsAndAcceptedAtThem) {
       {"contact/damping", {"0", "10"}, {"-1"}},
       {"contact/join_time", {"0", "3600"}, {"-0.1", "3601"}},
       {"contact/join_distance", {"0", "1"}, {"-0.1"}},
-      {"contact/midpoint_intervals", {"1", "20"}, {"0", "-1"}},
+      {"contact/midpoint_intervals", {"1", "10000"}, {"0", "-1", "10001"}},
       {"rate", {"0.001", "10000"}, {"0", "-30"}},
       {"chord_tolerance", {"0.00001"}, {"0", "-1"}},
       {"max_chords", {"1"}, {"0", "-1"}},
