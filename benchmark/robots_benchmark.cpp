@@ -54,7 +54,7 @@ Robot amongBoxes(Robot robot) {
     box.X_frame_B = X_RO;
     robot.scene.bodies.push_back(box);
   }
-  disableUnreachable(robot.model, robot.scene);
+  setRigidRoots(robot.model, robot.scene);
   return robot;
 }
 

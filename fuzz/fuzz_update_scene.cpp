@@ -94,9 +94,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
       ChangeSources sources{loop.history(), files, limits, 1000, {}};
       for (std::size_t i = numbers.below(4); i > 0; --i) next.apply(fuzz::changeOf(numbers), sources);
       fuzz::checkText(next, sources);
-      SceneDescription description = next.description(limits);
-      std::vector<UnreachablePair> unreachable = next.unreachable(description);
-      const auto world = std::make_shared<const CheckedWorld>(editor->next(std::move(description)), unreachable);
+      const auto world = std::make_shared<const CheckedWorld>(editor->next(next.description(limits)));
       scene = std::move(next);
       loop.adopt(*loop.prepare(world));
       fuzz::require(loop.world() == world, "the cycles go on in the new world");

@@ -8,8 +8,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const RobotModel robot(fuzz::toText(data, size), "fuzz");
     robot.forwardKinematics({});
     for (const std::string& link : robot.links()) {
-      const RobotModel::Reach reach = robot.reach(robot.root(), link);
-      fuzz::require(!(reach.nearest > reach.farthest), "a reach is in order");
+      fuzz::require(robot.reach(robot.root(), Vector3d::Zero(), link, Vector3d::Zero()) >= 0.0, "a reach is a number");
       robot.adjacent(robot.root(), link);
     }
   });

@@ -144,7 +144,7 @@ SceneDescription boxesAbout(const Robot& robot, const Poses& poses, FclScene& fc
   for (int box = 0; box < kBoxes; ++box) {
     scene.bodies.push_back(placer.place(box, wantedDistance(proximity, box, random), random));
   }
-  disableUnreachable(robot.model, scene);
+  setRigidRoots(robot.model, scene);
   return scene;
 }
 

@@ -30,7 +30,6 @@ TfCycles::TfCycles(const Robot& robot, const BoxWorld& world, std::shared_ptr<co
   described.robot = shared(robot.model);
   described.scene = world.scene;
   described.root_frame = described.fixed_frame = robot.model.root();
-  described.unreachable = unreachablePairs(world.scene.bodies, world.scene.allowed);
   MonitorParameters parameters;
   parameters.monitor = options;
   loop_ = std::make_unique<MonitorLoop>(std::move(scene), described, parameters);

@@ -15,7 +15,7 @@ struct PairRule {
 /// The allowed collision matrix, as written by a user. Pairs in both lists are checked.
 struct PairRules {
   std::vector<PairRule> allowed;  ///< may touch: not checked
-  std::vector<PairRule> checked;  ///< checked, unless their bodies can never meet
+  std::vector<PairRule> checked;  ///< checked, unless they are rigidly joined
 };
 
 bool isPattern(const std::string& text);
@@ -33,7 +33,7 @@ void warnOfUnknown(const char* list, const std::vector<PairRule>& rules, const S
                    std::vector<std::string>& warnings);
 
 /// Leaves out pairs of a scene that are allowed to touch, and includes pairs that are to be checked although they were
-/// left out, except for AllowedPair::proved ones.
+/// left out.
 /// @param scene     with all of its bodies and allowed pairs.
 /// @param warnings  gets a line for each pattern that matches no body's name.
 void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std::string>& warnings);

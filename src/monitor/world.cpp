@@ -44,7 +44,7 @@ SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan
     const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
     const auto known = reasons.find({pair.body_a, pair.body_b});
     const LeftOutReason reason = known == reasons.end() ? LeftOutReason{"left out"} : known->second;
-    description.allowed.push_back({a, b, reason.text, false, reason.depth});
+    description.allowed.push_back({a, b, reason.text, reason.depth});
   }
   return description;
 }

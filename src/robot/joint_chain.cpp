@@ -43,7 +43,7 @@ double maxClosingSpeed(const RobotModel& robot, int link_a, const BoundingBall& 
                        const BoundingBall& ball_b) {
   const auto leverTo = [&](int joint, int link, const BoundingBall& ball) {
     const auto name = [&](int of) { return robot.links()[static_cast<std::size_t>(of)]; };
-    return robot.reach(name(joint), Vector3d::Zero(), name(link), ball.center).farthest + ball.radius;
+    return robot.reach(name(joint), Vector3d::Zero(), name(link), ball.center) + ball.radius;
   };
   double speed = 0.0;
   for (const int joint : jointsThatMove(robot, link_a, link_b)) {

@@ -89,14 +89,12 @@ void ChainReach::addJoint(const urdf::Joint& joint, const Range& range, bool for
   }
 }
 
-Range ChainReach::lengthOf(const Piece& piece) {
-  const auto lengthAt = [&](double q) { return (piece.offset + q * piece.slide).norm(); };
-  const double nearest = std::max(piece.low, std::min(-piece.offset.dot(piece.slide), piece.high));
-  return {lengthAt(nearest), std::max(lengthAt(piece.low), lengthAt(piece.high))};
+double ChainReach::lengthOf(const Piece& piece) {
+  return std::max((piece.offset + piece.low * piece.slide).norm(), (piece.offset + piece.high * piece.slide).norm());
 }
 
-Range ChainReach::distanceTo(const Vector3d& end) const {
-  if (unlimited_) return {0.0, kInfinity};
+double ChainReach::farthest(const Vector3d& end) const {
+  if (unlimited_) return kInfinity;
   Piece last = piece_;
   last.offset += end;
 
@@ -113,17 +111,13 @@ Range ChainReach::distanceTo(const Vector3d& end) const {
     const double along = cuts[0].axis.dot(v) + last.rotated_about.dot(w);
     const double across_v = cuts[0].axis.cross(v).norm();
     const double across_w = last.rotated_about.cross(w).norm();
-    return {std::hypot(along, across_v - across_w), std::hypot(along, across_v + across_w)};
+    return std::hypot(along, across_v + across_w);
   }
 
-  std::vector<Range> lengths = {lengthOf(last)};
-  for (const Cut& cut : cuts) lengths.push_back(lengthOf(cut.before));
-  for (const double length : further_slides_) lengths.emplace_back(0.0, length);
-  double farthest = 0.0;
-  for (const Range& length : lengths) farthest += length.second;
-  double nearest = 0.0;  // the longest piece, if all others point back along it
-  for (const Range& length : lengths) nearest = std::max(nearest, length.first - (farthest - length.second));
-  return {nearest, farthest};
+  double sum = lengthOf(last);
+  for (const Cut& cut : cuts) sum += lengthOf(cut.before);
+  for (const double length : further_slides_) sum += length;
+  return sum;
 }
 
 }  // namespace sdf_ccd

@@ -22,10 +22,10 @@ using Range = std::pair<double, double>;
 /// none, because a URDF without limits reads like this. A mimic joint's range also covers its leader's.
 Range reachRange(const urdf::ModelInterface& model, const urdf::Joint& joint);
 
-/// Bounds the distance between the two ends of a chain of joints, over all joint positions.
+/// Upper bound of the distance between the two ends of a chain of joints, over all joint positions.
 ///
 /// The chain is cut at rotating joints. A piece between two cuts has a fixed length, or a range of lengths if a joint
-/// in it translates; the triangle inequality then bounds the distance of the ends.
+/// in it translates; no more than the sum of all lengths is between the ends.
 class ChainReach {
  public:
   /// @param start  the first end, in the frame that the first element is added to [m].
@@ -35,8 +35,8 @@ class ChainReach {
   /// @param forward  false if the chain passes from the joint's child to its parent.
   void addJoint(const urdf::Joint& joint, const Range& range, bool forward);
 
-  /// (nearest, farthest) [m] to the other end, a point in the last frame.
-  Range distanceTo(const Vector3d& end) const;
+  /// To the other end, a point in the last frame [m].
+  double farthest(const Vector3d& end) const;
 
  private:
   /// Vectors from the last cut to the frame's origin: offset + q slide, q in [low, high], in the frame's axes.
@@ -56,7 +56,7 @@ class ChainReach {
     Vector3d axis;  ///< unit, in the joint's axes
   };
 
-  static Range lengthOf(const Piece& piece);
+  static double lengthOf(const Piece& piece);
 
   Piece piece_;
   std::vector<Cut> cuts_;

@@ -1,14 +1,11 @@
 #include "sdf_ccd/robot/planned_motion.h"
 
-#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
-#include "common/number_text.h"
 #include "motion/screw_motion.h"
 #include "motion/validate_motion.h"
 #include "robot/trajectory_motion.h"
-#include "robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -28,20 +25,16 @@ void startAtZero(CycleMotion& motion) {
 }
 
 /// Resizes optional vectors to the number of bodies. @throws std::invalid_argument if sizes are inconsistent.
-void complete(CycleMotion& motion, const std::vector<bool>& is_moved) {
+void complete(CycleMotion& motion) {
   if (!motion.spans.empty()) refusePlan("spans are of cycles");
   MotionShape shape;
-  for (std::size_t body = 0; body < is_moved.size(); ++body) shape.bodies.push_back("body " + std::to_string(body));
+  for (std::size_t body = 0; body < motion.X_WB.size(); ++body) shape.bodies.push_back("body " + std::to_string(body));
   validate(motion, shape, "planned motion");
   motion.missing.resize(shape.bodies.size());
   for (std::size_t body = 0; body < shape.bodies.size(); ++body) {
     if (motion.missing[body].empty()) {
       motion.X_WB[body].resize(motion.times.size(), Isometry3d(motion.X_WB[body].front()));
       requireUnambiguousTurns(motion.X_WB[body], "planned motion: " + shape.bodies[body]);
-      const std::vector<Isometry3d>& poses = motion.X_WB[body];
-      const auto isFirst = [&](const Isometry3d& X_WB) { return X_WB.matrix() == poses.front().matrix(); };
-      if (!is_moved[body] && !std::all_of(poses.begin(), poses.end(), isFirst))
-        refusePlan(shape.bodies[body] + " moves, though is_moved says that it does not");
     } else {
       motion.X_WB[body].resize(motion.times.size(), Isometry3d::Identity());  // not read
     }
@@ -70,9 +63,6 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   const auto along = std::make_shared<TrajectoryMotion>(robot, plan.trajectory, bodies.bodies);
   const std::vector<double> waypoints = along->waypoints();
   result.waypoints = fromZero(waypoints);
-  result.whyReachable = [reach = JointReach(robot, plan, bodies.bodies)](const UnreachablePair& pair) {
-    return reach.whyReachable(pair);
-  };
   result.piece = [along, waypoints, missing, balls, sampling, errors = along->jointErrors()](
                      std::size_t first, std::size_t last, CycleMotion& motion) {
     motion.missing = missing;
@@ -83,14 +73,11 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
   return result;
 }
 
-PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved) {
-  complete(motion, is_moved);
+PlannedMotion planThrough(CycleMotion motion) {
+  complete(motion);
   PlannedMotion result;
   result.samples = result.waypoints = fromZero(motion.times);
   const auto whole = std::make_shared<const CycleMotion>(std::move(motion));
-  result.whyReachable = [whole, is_moved](const UnreachablePair& pair) {
-    return sdf_ccd::whyReachable(*whole, is_moved, pair);
-  };
   result.piece = [whole](std::size_t first, std::size_t last, CycleMotion& piece) {
     piece.missing = whole->missing;
     piece.motion_error = whole->motion_error;

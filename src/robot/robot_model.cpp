@@ -142,12 +142,8 @@ bool RobotModel::adjacent(const std::string& link_a, const std::string& link_b) 
   return type != urdf::Joint::FIXED && type != urdf::Joint::FLOATING && type != urdf::Joint::PLANAR;
 }
 
-RobotModel::Reach RobotModel::reach(const std::string& link_a, const std::string& link_b) const {
-  return reach(link_a, Vector3d::Zero(), link_b, Vector3d::Zero());
-}
-
-RobotModel::Reach RobotModel::reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b,
-                                    const Vector3d& p_B) const {
+double RobotModel::reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b,
+                         const Vector3d& p_B) const {
   ChainReach chain(p_A);
   for (const auto& [link, down] : path(indexOf(link_a), indexOf(link_b))) {
     const urdf::Joint& joint = jointAbove(link);
@@ -156,19 +152,7 @@ RobotModel::Reach RobotModel::reach(const std::string& link_a, const Vector3d& p
     chain.addJoint(joint, reachRange(*urdf_, joint), down);
     if (!down) chain.addFixed(X_PJ.inverse());
   }
-  const auto [nearest, farthest] = chain.distanceTo(p_B);
-  return {nearest, farthest};
-}
-
-std::vector<SlideRange> RobotModel::slidesBetween(const std::string& link_a, const std::string& link_b) const {
-  std::vector<SlideRange> slides;
-  for (const auto& step : path(indexOf(link_a), indexOf(link_b))) {
-    const urdf::Joint& joint = jointAbove(step.first);
-    if (joint.type != urdf::Joint::PRISMATIC) continue;
-    const auto [low, high] = reachRange(*urdf_, joint);
-    slides.push_back({joint.name, low, high});
-  }
-  return slides;
+  return chain.farthest(p_B);
 }
 
 double RobotModel::positionAt(const urdf::Joint& joint, const Isometry3d& X_PL) const {

@@ -1,41 +1,27 @@
 #include "sdf_ccd/robot/robot_scene.h"
 
 #include <algorithm>
-#include <optional>
-#include <set>
 #include <stdexcept>
 
-#include "geometry_extent.h"
 #include "link_geometry.h"
-#include "model/name_pair.h"
 #include "sdf_ccd/common/cancel.h"
 #include "srdf_pairs.h"
-#include "unreachable_pairs.h"
+#include "urdf_geometry.h"
 
 namespace sdf_ccd {
 namespace {
 
-/// Decides whether and why a pair of links needs no check.
+/// Tells why a pair of links may touch. Of those that are rigidly joined only if the SRDF says so.
 class PairFilter {
  public:
   PairFilter(const RobotModel& robot, const Srdf& srdf, const RobotSceneOptions& options)
       : robot_(robot), options_(options), srdf_(srdf) {}
 
-  /// @param ball_a  contains A's geometry; empty if its size is not known. The same for ball_b.
-  std::string reason(const BodyDescription& a, const std::optional<BoundingBall>& ball_a, const BodyDescription& b,
-                     const std::optional<BoundingBall>& ball_b) const {
-    std::string disabled = srdf_.whyDisabled(a.name, b.name);
-    if (!disabled.empty()) return disabled;
-    if (robot_.rigidlyJoined(a.name, b.name)) return kRigidlyJoined;
-    if (!srdf_.isEnabled(a.name, b.name)) {
-      if (srdf_.isDisabledByDefault(a.name) || srdf_.isDisabledByDefault(b.name)) return "SRDF: disabled by default";
-      if (!options_.check_adjacent && robot_.adjacent(a.name, b.name)) return "adjacent";
-    }
-    if (ball_a && ball_b) {
-      const auto reach = robot_.reach(a.name, ball_a->center, b.name, ball_b->center);
-      if (reach.nearest > ball_a->radius + ball_b->radius) return kOutOfReach;
-    }
-    return {};
+  std::string reason(const std::string& a, const std::string& b) const {
+    std::string disabled = srdf_.whyDisabled(a, b);
+    if (!disabled.empty() || robot_.rigidlyJoined(a, b) || srdf_.isEnabled(a, b)) return disabled;
+    if (srdf_.isDisabledByDefault(a) || srdf_.isDisabledByDefault(b)) return "SRDF: disabled by default";
+    return !options_.check_adjacent && robot_.adjacent(a, b) ? "adjacent" : "";
   }
 
  private:
@@ -50,28 +36,6 @@ void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::st
   text += " a visual but no collision shape, so their contacts are not detected:";
   for (const std::string& link : links) text += " " + link;
   warnings.push_back(text);
-}
-
-/// The body's pose in the root's frame, if its frame is rigidly joined to the robot's root.
-std::optional<Isometry3d> poseInRoot(const RobotModel& robot, const std::vector<Isometry3d>& X_RL,
-                                     const BodyDescription& body) {
-  for (std::size_t i = 0; i < X_RL.size(); ++i) {
-    const std::string& link = robot.links()[i];
-    if (link == body.frame && robot.rigidlyJoined(robot.root(), link)) return X_RL[i] * body.X_frame_B;
-  }
-  return std::nullopt;
-}
-
-/// True if the link's ball cannot reach the object, whose pose in the root's frame is X_RB.
-bool outOfReach(const RobotModel& robot, const BodyDescription& object, const Isometry3d& X_RB, const std::string& link,
-                const BoundingBall& ball) {
-  const BoundingBall object_ball = extentBall(object.geometry);
-  const auto between = robot.reach(robot.root(), X_RB * object_ball.center, link, ball.center);
-  if (between.nearest > object_ball.radius + ball.radius) return true;
-  // The ball of a wide object is much larger; the object itself may be beyond the reach of the link.
-  const auto from_root = robot.reach(robot.root(), Vector3d::Zero(), link, ball.center);
-  const Vector3d p_B = X_RB.inverse().translation();
-  return distanceBelow(object.geometry, p_B) > from_root.farthest + ball.radius;
 }
 
 /// describeRobot() visits all pairs, and the joints between their links.
@@ -122,46 +86,29 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     warnings.push_back("the SRDF names link " + link + ", which the URDF does not have");
 
   requireFewPairs(robot, scene.bodies.size());
-  std::vector<std::optional<BoundingBall>> balls;
-  for (const BodyDescription& body : scene.bodies) {
-    balls.push_back(body.failure.empty() ? std::make_optional(extentBall(body.geometry)) : std::nullopt);
-  }
   const PairFilter filter(robot, srdf, options);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     checkCancelled();
     for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
-      const std::string reason = filter.reason(scene.bodies[i], balls[i], scene.bodies[j], balls[j]);
-      if (reason.empty()) continue;
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[j].name;
-      scene.allowed.push_back({a, b, reason, isProof(reason) || robot.rigidlyJoined(a, b)});
+      const std::string reason = filter.reason(a, b);
+      if (!reason.empty()) scene.allowed.push_back({a, b, reason});
     }
   }
-  addProofs(robot, scene.bodies, scene.allowed);
+  setRigidRoots(robot, scene);
   return scene;
 }
 
-void disableUnreachable(const RobotModel& robot, SceneDescription& scene) {
-  std::set<NamePair> allowed;
-  for (const AllowedPair& pair : scene.allowed) allowed.insert(namePair(pair.body_a, pair.body_b));
-  const std::set<std::string> links(robot.links().begin(), robot.links().end());
-  const std::vector<Isometry3d> X_RL = robot.forwardKinematics({});
-  for (const BodyDescription& object : scene.bodies) {
-    if (!object.is_world || !object.failure.empty() || object.geometry.empty()) continue;
-    const std::optional<Isometry3d> X_RB = poseInRoot(robot, X_RL, object);
-    if (!X_RB) continue;
-    for (const BodyDescription& body : scene.bodies) {
-      if (body.is_world || !body.failure.empty() || body.geometry.empty() || !links.count(body.name)) continue;
-      if (allowed.count(namePair(object.name, body.name))) continue;
-      std::string reason;
-      if (robot.rigidlyJoined(robot.root(), body.name)) {
-        reason = kRigidlyJoined;
-      } else if (outOfReach(robot, object, *X_RB, body.name, extentBall(body.geometry))) {
-        reason = kOutOfReach;
-      }
-      if (!reason.empty()) scene.allowed.push_back({body.name, object.name, reason, true});
-    }
+void setRigidRoots(const RobotModel& robot, SceneDescription& scene, const std::string& prefix) {
+  for (BodyDescription& body : scene.bodies) {
+    body.rigid_root.clear();
+    body.X_root_frame.setIdentity();
+    const bool is_of_robot = body.map.empty() && body.frame.compare(0, prefix.size(), prefix) == 0;
+    int link = is_of_robot ? robot.find(body.frame.substr(prefix.size())) : -1;
+    for (; link > 0 && robot.jointAbove(link).type == urdf::Joint::FIXED; link = robot.parent(link))
+      body.X_root_frame = toEigen(robot.jointAbove(link).parent_to_joint_origin_transform) * body.X_root_frame;
+    if (link >= 0 && (link == 0 || !body.is_world)) body.rigid_root = robot.links()[static_cast<std::size_t>(link)];
   }
-  addProofs(robot, scene.bodies, scene.allowed);
 }
 
 }  // namespace sdf_ccd

@@ -10,55 +10,14 @@
 #include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
-#include "robot/unreachable_pairs.h"
+#include "robot_monitor/moved_pairs.h"
 
 namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kWaypointsPerPiece = 16;
 
-/// The pairs that a scene leaves out because they never meet, or never move relative to each other.
-class ProvedPairs {
- public:
-  explicit ProvedPairs(const Scene& scene) {
-    for (const LeftOut& left_out : scene.left_out) {
-      const LeftOutReason& reason = left_out.reason;
-      if (!left_out.isPair() || !(reason.proof || isProof(reason.text))) continue;
-      pairs_.push_back({{reason.proof ? *reason.proof : PairProof(), left_out.body_a, left_out.body_b},
-                        reason.proof ? "" : reason.text + ", but no proof of it is known"});
-    }
-  }
-
-  /// See uncheckedPairs().
-  std::vector<UncheckedPair> uncheckedAlong(const PlannedMotion& motion) const {
-    std::vector<UncheckedPair> unchecked = motion.unchecked;
-    const auto isListed = [&](const UnreachablePair& pair) {
-      return std::any_of(motion.unchecked.begin(), motion.unchecked.end(), [&](const UncheckedPair& known) {
-        return known.body_a == pair.body_a && known.body_b == pair.body_b;
-      });
-    };
-    for (const Proved& proved : pairs_) {
-      std::string why = proved.doubt;
-      if (why.empty()) why = motion.whyReachable ? motion.whyReachable(proved.pair) : "the motion does not tell of it";
-      if (!why.empty() && !isListed(proved.pair)) unchecked.push_back({proved.pair.body_a, proved.pair.body_b, why});
-    }
-    return unchecked;
-  }
-
- private:
-  struct Proved {
-    UnreachablePair pair;
-    std::string doubt;  // if the proof is missing
-  };
-
-  std::vector<Proved> pairs_;
-};
-
 }  // namespace
-
-std::vector<UncheckedPair> uncheckedPairs(const Scene& scene, const PlannedMotion& motion) {
-  return ProvedPairs(scene).uncheckedAlong(motion);
-}
 
 struct MotionCheck::Impl {
   const PlannedMotion& motion;
@@ -67,6 +26,7 @@ struct MotionCheck::Impl {
   ResultJoiner joiner;
   CycleMotion piece;
   std::size_t done;  // index of the waypoint up to which the motion is checked
+  MovedPairs moved{monitor.scene()};
 };
 
 MotionCheck::MotionCheck(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
@@ -88,13 +48,14 @@ const CycleMotion& MotionCheck::next() {
   const std::size_t last = std::min(impl_->done + kWaypointsPerPiece, impl_->motion.waypoints.size() - 1);
   impl_->motion.piece(impl_->done, last, impl_->piece);
   impl_->joiner.add(impl_->piece, impl_->monitor.run(impl_->piece, impl_->request));
+  impl_->moved.add(impl_->piece);
   impl_->done = last;
   return impl_->piece;
 }
 
 CycleResult MotionCheck::result() const {
   CycleResult result = impl_->joiner.result();
-  addUnchecked(uncheckedPairs(impl_->monitor.scene(), impl_->motion), result);
+  addUnchecked(impl_->moved.unchecked(), result);
   return result;
 }
 
@@ -115,7 +76,7 @@ namespace {
 class MotionChecker {
  public:
   MotionChecker(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const MotionsRequest& wanted)
-      : monitor_(std::move(scene), options), proved_(monitor_.scene()), wanted_(wanted) {
+      : monitor_(std::move(scene), options), moved_(monitor_.scene()), wanted_(wanted) {
     request_.wrenches = false;
     request_.contacts = false;
     request_.skipped_pairs = false;
@@ -130,7 +91,8 @@ class MotionChecker {
     forPieces(motion, request_, [&](double start, const CycleResult& result) {
       const Verdict before = found.verdict;
       add(result, found);
-      if (found.verdict != before) findPair(start, result, found);
+      if (found.verdict != before) found.time = start;
+      if (found.verdict != before && found.verdict == result.verdict) findPair(start, result, found);
       return !first_only || found.verdict == Verdict::kClear;
     });
     return found;
@@ -148,7 +110,8 @@ class MotionChecker {
       for (std::size_t i = 0; i < touches.size(); ++i) touches[i].add(start, result.pairs[i]);
       return true;
     });
-    for (const UncheckedPair& pair : unchecked_)
+    if (!found.unchecked.empty()) found.time = motion.waypoints.front();
+    for (const UncheckedPair& pair : found.unchecked)
       found.pairs.push_back({pair.body_a, pair.body_b, Verdict::kNotChecked, motion.waypoints.front()});
     double earliest = kInfinity;
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -185,11 +148,7 @@ class MotionChecker {
     monitor_.reset();  // so that results do not depend on the previous motion
     MotionVerdict found;
     found.verdict = monitor_.scene().pairs.empty() ? Verdict::kNotChecked : Verdict::kClear;
-    unchecked_ = proved_.uncheckedAlong(motion);
-    if (!unchecked_.empty()) {
-      found.verdict = Verdict::kNotChecked;
-      found.time = motion.waypoints.front();
-    }
+    moved_.begin();
     return found;
   }
 
@@ -200,7 +159,9 @@ class MotionChecker {
     for (std::size_t first = 0; first < end;) {
       const std::size_t last = std::min(first + kWaypointsPerPiece, end);
       motion.piece(first, last, piece_);
-      if (!use(motion.waypoints[first], monitor_.run(piece_, request))) return;
+      const CycleResult& result = monitor_.run(piece_, request);
+      moved_.add(piece_);
+      if (!use(motion.waypoints[first], result)) return;
       first = last;
     }
   }
@@ -208,6 +169,9 @@ class MotionChecker {
   void add(const CycleResult& result, MotionVerdict& found) const {
     found.error_bound = std::max(found.error_bound, result.error_bound);
     found.verdict = worseOf(found.verdict, result.verdict);
+    if (!moved_.any()) return;
+    found.verdict = worseOf(found.verdict, Verdict::kNotChecked);
+    found.unchecked = moved_.unchecked();
   }
 
   /// The pair that has the result's verdict first.
@@ -224,11 +188,10 @@ class MotionChecker {
   }
 
   Monitor monitor_;
-  ProvedPairs proved_;
+  MovedPairs moved_;
   const MotionsRequest& wanted_;
   CycleRequest request_;
   CycleMotion piece_;
-  std::vector<UncheckedPair> unchecked_;  // of this motion
 };
 
 }  // namespace

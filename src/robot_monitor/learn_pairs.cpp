@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
@@ -12,13 +11,10 @@
 #include "common/seconds_since.h"
 #include "geometry/unit_hint.h"
 #include "model/error_budget.h"
-#include "model/name_pair.h"
 #include "monitor/plan/scene_cost.h"
 #include "observed_pairs.h"
-#include "robot/joint_motion.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
-#include "robot/unreachable_pairs.h"
 
 namespace sdf_ccd {
 namespace {
@@ -40,44 +36,13 @@ void warnOfUnits(const SceneDescription& description, std::vector<std::string>& 
   }
 }
 
-/// Of each joint the least and the greatest position.
-std::map<std::string, Range> rangesOf(const JointStates& states) {
-  std::map<std::string, Range> ranges;
-  for (const std::vector<double>& positions : states.positions) {
-    for (std::size_t j = 0; j < positions.size(); ++j) {
-      Range& range = ranges.try_emplace(states.joints[j], positions[j], positions[j]).first->second;
-      range = {std::min(range.first, positions[j]), std::max(range.second, positions[j])};
-    }
-  }
-  return ranges;
-}
-
 /// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
 class PairSorter {
  public:
-  /// @param recorded  states in which joints may be beyond the limits that keep pairs apart.
-  PairSorter(const RobotModel& robot, const Srdf& srdf, const SceneDescription& scene, const JointStates& recorded)
-      : robot_(robot), srdf_(srdf) {
-    const std::map<std::string, Range> ranges = rangesOf(recorded);
-    for (const UnreachablePair& pair : unreachablePairs(scene.bodies, scene.allowed)) {
-      if (pair.X_AB) continue;
-      const NamePair names = namePair(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
-      const auto isLeft = [&](const SlideRange& slide) { return isBeyond(slide, ranges); };
-      const auto left = std::find_if(pair.slides.begin(), pair.slides.end(), isLeft);
-      if (left == pair.slides.end()) {
-        out_of_reach_.insert(names);
-      } else {
-        beyond_limits_.insert(left->joint);
-      }
-    }
-  }
-
-  /// Joints that were recorded so far beyond their limits that pairs may meet which the limits keep apart.
-  const std::set<std::string>& beyondLimits() const { return beyond_limits_; }
+  PairSorter(const RobotModel& robot, const Srdf& srdf) : robot_(robot), srdf_(srdf) {}
 
   /// False if the pair needs no test; it is then added to `pairs`.
   bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
-    const NamePair names = namePair(a.name, b.name);
     if (isKnown(a.name, b.name)) {
       ++pairs.known;
     } else if (areJoined(a.name, b.name)) {
@@ -88,9 +53,6 @@ class PairSorter {
                    JointSampler::unboundedBetween(robot_, robot_.find(a.name), robot_.find(b.name));
                !joint.empty()) {
       pairs.unknown.push_back({a.name, b.name, "joint " + joint + " is unbounded"});
-    } else if (out_of_reach_.count(names) > 0) {
-      pairs.disabled.push_back({a.name, b.name, "Never"});
-      ++pairs.proved;
     } else {
       return true;
     }
@@ -98,16 +60,6 @@ class PairSorter {
   }
 
  private:
-  /// Whether the joint, or the one that it mimics, was recorded beyond the range that is assumed.
-  bool isBeyond(const SlideRange& slide, const std::map<std::string, Range>& recorded) const {
-    const urdf::Joint& joint = *robot_.urdf().getJoint(slide.joint);
-    const std::string& named = recorded.count(joint.name) > 0 ? joint.name : robot_.leader(joint).name;
-    const auto range = recorded.find(named);
-    if (range == recorded.end()) return false;
-    const auto at = [&](double position) { return beyondReach(slide, robot_.position(joint, {{named, position}})); };
-    return !at(range->second.first).empty() || !at(range->second.second).empty();
-  }
-
   /// Whether the SRDF has a rule for the pair.
   bool isKnown(const std::string& a, const std::string& b) const {
     return !srdf_.whyDisabled(a, b).empty() || srdf_.isEnabled(a, b) || srdf_.isDisabledByDefault(a) ||
@@ -121,8 +73,6 @@ class PairSorter {
 
   const RobotModel& robot_;
   SrdfPairs srdf_;
-  std::set<NamePair> out_of_reach_;
-  std::set<std::string> beyond_limits_;
 };
 
 BodyOptions sceneOptions(double max_error) {
@@ -131,16 +81,12 @@ BodyOptions sceneOptions(double max_error) {
   return options;
 }
 
-bool isRigid(const RobotModel& robot, const Scene& scene, const PlannedPair& pair) {
-  return robot.rigidlyJoined(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
-}
-
 bool isClose(const ObservedPair& pair) {
   return pair.has(Nearness::kNear) || pair.has(Nearness::kOpen) || pair.has(Nearness::kHeld);
 }
 
 void sortOut(const PlannedPair& pair, const ObservedPair& seen, const Scene& scene, const LearnOptions& options,
-             bool is_rigid, LearnedPairs& pairs) {
+             LearnedPairs& pairs) {
   LearnedPair found = {scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name, ""};
   const bool is_always = seen.areAlwaysTogether(), touches = seen.has(Nearness::kOverlap);
   if (seen.mayOverlapAtRest() && !is_always) pairs.at_default.push_back(found);
@@ -155,7 +101,6 @@ void sortOut(const PlannedPair& pair, const ObservedPair& seen, const Scene& sce
   } else if (!touches && !isClose(seen)) {
     found.reason = "Never";
     pairs.disabled.push_back(found);
-    pairs.proved += is_rigid;
   } else if (options.default_pairs && seen.mayOverlapAtRest()) {
     found.reason = "Default";
     pairs.disabled.push_back(found);
@@ -175,7 +120,8 @@ std::vector<ObservedPair> testPairs(const RobotModel& robot, const Scene& scene,
   // States between two in which a pair is closer than the bound may touch.
   observation.near = scene.contact_bound.total();
   observation.is_open = [&](std::size_t p, const ObservedPair& seen, std::size_t random) {
-    if (seen.has(Nearness::kUnknown) || isRigid(robot, scene, scene.pairs[p])) return false;  // one state is enough
+    const std::string &a = scene.bodies[scene.pairs[p].body_a].name, &b = scene.bodies[scene.pairs[p].body_b].name;
+    if (seen.has(Nearness::kUnknown) || robot.rigidlyJoined(a, b)) return false;  // one state is enough
     return seen.areAlwaysTogether() ? random <= kAlways : !seen.has(Nearness::kOverlap);
   };
   if (options.progress) observation.progress = [&](double share) { options.progress("states", share); };
@@ -197,20 +143,15 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   pairs.always_states = std::min(options.states, kAlways);
   pairs.recorded = options.recorded.size();
   pairs.seed = options.seed;
-  RobotSceneOptions all;
-  all.check_adjacent = true;
-  SceneDescription description = describeRobot(robot, {}, loader, all, pairs.warnings);
+  SceneDescription description = describeRobot(robot, {}, loader, {}, pairs.warnings);
   warnOfUnits(description, pairs.warnings);
   const JointSampler sampler(robot, options.seed);
   for (const std::string& joint : sampler.withoutLimits()) {
     pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");
   }
-  const PairSorter sorter(robot, srdf, description, options.recorded);
-  for (const std::string& joint : sorter.beyondLimits()) {
-    pairs.warnings.push_back("joint " + joint +
-                             " is recorded beyond its limits: pairs that these keep apart are tested, too");
-  }
+  const PairSorter sorter(robot, srdf);
   description.allowed.clear();
+  for (BodyDescription& body : description.bodies) body.rigid_root.clear();  // such pairs are tested, too
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < description.bodies.size(); ++j) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[j];
@@ -226,8 +167,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const Scene scene = buildScene(description, plan, scene_options, build_progress);
   const auto built = Clock::now();
   const std::vector<ObservedPair> seen = testPairs(robot, scene, options);
-  for (std::size_t p = 0; p < seen.size(); ++p)
-    sortOut(scene.pairs[p], seen[p], scene, options, isRigid(robot, scene, scene.pairs[p]), pairs);
+  for (std::size_t p = 0; p < seen.size(); ++p) sortOut(scene.pairs[p], seen[p], scene, options, pairs);
   pairs.error_bound = scene.contact_bound.total();
   pairs.build_seconds = std::chrono::duration<double>(built - start).count();
   pairs.test_seconds = secondsSince(built);

@@ -34,7 +34,6 @@ struct LearnedPairs {
   std::vector<LearnedPair> unknown;      ///< no result, and why: to be checked
   std::vector<LearnedPair> at_default;   ///< of these, and Default: CONTACT or UNCERTAIN in the default state
   std::size_t known = 0;                 ///< number of pairs decided by the given SRDF
-  std::size_t proved = 0;                ///< of `disabled`, Never: rigidly joined, or out of each other's reach
   std::size_t states = 0, recorded = 0;  ///< tested states, besides the default state
   std::size_t always_states = 0;         ///< lower bound of the random states in which Always was tested
   std::uint64_t seed = 0;                ///< of the random states
@@ -51,9 +50,8 @@ struct LearnedPairs {
 ///    and in none of them enter each other by more while they are apart in others (ObservedPair). About a thousand
 ///    random states are tested, as each needs a search for all contact points: a pair that separates in less than 0.3 %
 ///    of states may be classified as Always.
-///  - Never: they are farther apart than the error bound in every state. That is no proof, unless they are rigidly
-///    joined or out of each other's reach (RobotModel::reach()): after n states without a touch, a pair touches with
-///    95 % confidence in less than 3 / n of the states that could have been drawn.
+///  - Never: they are farther apart than the error bound in every state. That is no proof: after n states without a
+///    touch, a pair touches with 95 % confidence in less than 3 / n of the states that could have been drawn.
 ///  - Default, if requested: they are CONTACT or UNCERTAIN in the default state, with joints at zero or at the nearest
 ///    limit. They may separate and touch again in other states; such contacts are then not found.
 ///

@@ -23,19 +23,15 @@ std::string statesText(const LearnedPairs& pairs) {
 }
 
 std::string commentText(const LearnedPairs& pairs) {
-  std::string text =
-      " The following pairs were learned by `sdf_ccd learn-pairs` from " + statesText(pairs) +
-      ", with an error bound of " + numberText(1e3 * pairs.error_bound) +
-      " mm.\n       Adjacent: joined by one joint; not tested. Always: touched, or as neighbours came within 1 mm, in all "
-      "recorded and the first " +
-      std::to_string(pairs.always_states) +
-      " random ones.\n"
-      "       Never: farther apart than the bound in all of these states. Of " +
-      std::to_string(pairs.proved) +
-      " pairs that is proved, as they are\n       rigidly joined or out of reach; of the others it is NO "
-      "PROOF: ";
+  std::string text = " The following pairs were learned by `sdf_ccd learn-pairs` from " + statesText(pairs) +
+                     ", with an error bound of " + numberText(1e3 * pairs.error_bound) +
+                     " mm.\n       Adjacent: joined by one joint; not tested. Always: touched, or as neighbours came "
+                     "within 1 mm, in all recorded and the first " +
+                     std::to_string(pairs.always_states) +
+                     " random ones.\n       Never: farther apart than the bound in all of these states. That is NO "
+                     "PROOF: ";
   if (pairs.states > 0) {
-    text += "with 95 % confidence each touches in\n       less than " + numberText(300.0 / double(pairs.states)) +
+    text += "with 95 %\n       confidence each touches in less than " + numberText(300.0 / double(pairs.states)) +
             " % of states that are drawn like these.";
   } else {
     text += "it holds for what was recorded.";

@@ -76,7 +76,7 @@ void printReport(const LearnedPairs& pairs) {
             << "error bound      " << lengthText(pairs.error_bound) << "\n"
             << "no check needed  " << pairs.disabled.size();
   for (const auto& [reason, count] : reasons) std::cout << ", " << count << " " << reason;
-  std::cout << "; of Never, " << pairs.proved << " are proved\n";
+  std::cout << "\n";
   if (pairs.known > 0) std::cout << "as given         " << pairs.known << "\n";
   printList("touch            ", pairs.touching);
   printList("close            ", pairs.close);
@@ -142,13 +142,11 @@ void addLearnPairsCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand("learn-pairs", "Write an SRDF of the pairs of links that need no check");
   command->footer(
       "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound, or as "
-      "neighbours "
-      "come within 1 mm in all of them. Never: farther "
-      "apart than it in all of them, which is not a proof unless they are out of each other's reach; the file gives "
-      "the number of states tested. States are drawn within the joints' limits, a quarter of them with joints at "
-      "their limits; mimic joints follow, continuous ones take a full revolution, or more if what follows them needs "
-      "more. The same seed gives the same file. "
-      "What a given SRDF holds is kept. Exit code 1: nothing is learned of some pairs, as a mesh is missing or a joint "
+      "neighbours come within 1 mm in all of them. Never: farther apart than it in all of them, which is not a proof; "
+      "the file gives the number of states tested. States are drawn within the joints' limits, a quarter of them with "
+      "joints at their limits; mimic joints follow, continuous ones take a full revolution, or more if what follows "
+      "them needs more. The same seed gives the same file. What a given SRDF holds is kept. Exit code 1: nothing is "
+      "learned of some pairs, as a mesh is missing or a joint "
       "has no bounds.");
   command->add_option("--urdf", arguments->urdf, "The robot; package:// is looked up in ROS_PACKAGE_PATH")->required();
   command->add_option("--out", arguments->out, "SRDF file to write")->required();

@@ -58,7 +58,8 @@ TEST(RobotModel, AJointWithoutKinematicsFloats) {
     EXPECT_EQ(robot.warnings()[0].find("joint bad: "), 0U) << robot.warnings()[0];
     EXPECT_NE(robot.warnings()[0].find(why), std::string::npos) << robot.warnings()[0];
     EXPECT_NE(robot.warnings()[0].find(kFloats), std::string::npos) << robot.warnings()[0];
-    EXPECT_EQ(robot.reach("a", "c").farthest, HUGE_VAL) << "nothing may follow from the joint";
+    EXPECT_EQ(robot.reach("a", Vector3d::Zero(), "c", Vector3d::Zero()), HUGE_VAL)
+        << "nothing may follow from the joint";
     EXPECT_FALSE(robot.rigidlyJoined("b", "c") || robot.adjacent("b", "c"));
   }
 }

@@ -13,13 +13,13 @@ TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
   const SceneDescription scene = describe(chain()).scene;
   EXPECT_EQ(reasonFor(scene, "c", "d"), "rigidly joined");
   EXPECT_EQ(reasonFor(scene, "a", "b"), "adjacent");
-  EXPECT_EQ(reasonFor(scene, "b", "d"), "out of reach");  // c lies between
+  EXPECT_EQ(reasonFor(scene, "b", "d"), "checked") << "however far apart";
   EXPECT_EQ(reasonFor(scene, "a", "c"), "checked");
   RobotSceneOptions options;
   options.check_adjacent = true;
   const SceneDescription adjacent = describe(chain(), {}, options).scene;
   EXPECT_EQ(reasonFor(adjacent, "c", "d"), "rigidly joined");
-  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "out of reach");  // 1 m apart at every joint position
+  EXPECT_EQ(reasonFor(adjacent, "a", "b"), "checked");
 }
 
 TEST(RobotScene, SrdfDisablesAndEnables) {
@@ -96,16 +96,6 @@ TEST(RobotScene, ThousandsOfLinksAreRefused) {
             "checked");
 }
 
-TEST(RobotScene, LinksOutOfReachAreNoPair) {
-  // b rotates 1 m from a, c at 0.2 m from b: between 0.8 and 1.2 m from a.
-  const std::string cube = box("0.1 0.1 0.1");
-  const SceneDescription scene =
-      describe("<robot name='r'>" + link("a", cube) + link("b", cube) + link("c", cube) +
-               joint("a", "b", "continuous", "1 0 0") + joint("b", "c", "continuous", "0.2 0 0") + "</robot>")
-          .scene;
-  EXPECT_EQ(reasonFor(scene, "a", "c"), "out of reach");
-}
-
 BodyDescription worldBox(const std::string& name, const std::string& frame, const Vector3d& place,
                          const Vector3d& half_size) {
   BodyDescription body;
@@ -118,28 +108,48 @@ BodyDescription worldBox(const std::string& name, const std::string& frame, cons
   return body;
 }
 
-TEST(RobotScene, WorldObjectsOutOfReachAreNoPair) {
-  const RobotModel robot(chain());
+/// A base that stands in the world, a chain of three links on it, the last two of which are rigidly joined.
+TEST(RobotScene, WorldObjectsInTheRootsFrameAreRigidlyJoinedToIt) {
+  const std::string cube = box("0.1 0.1 0.1");
+  const RobotModel robot("<robot name='r'>" + link("world") + link("base", cube) + link("arm", cube) +
+                         link("hand", cube) + joint("world", "base", "fixed", "0 0 1") +
+                         joint("base", "arm", "continuous", "1 0 0") + joint("arm", "hand", "fixed", "0.5 0 0") +
+                         "</robot>");
   std::vector<std::string> warnings;
   SceneDescription scene = describeRobot(robot, {}, loadOwn, {}, warnings);
-  scene.bodies.push_back(worldBox("far", "a", {9, 0, 0}, Vector3d::Constant(0.5)));
-  scene.bodies.push_back(worldBox("wall", "a", {0, -3, 0}, {20, 0.1, 20}));
-  scene.bodies.push_back(worldBox("near", "a", {2.0, 0, 0}, Vector3d::Constant(0.1)));
+  scene.bodies.push_back(worldBox("table", "world", {3, 0, 0}, Vector3d::Constant(0.1)));
   scene.bodies.push_back(worldBox("elsewhere", "map", {9, 0, 0}, Vector3d::Constant(0.5)));
-  BodyDescription ground = worldBox("ground", "a", {0, 0, -5}, Vector3d::Ones());
-  ground.geometry[0].shape = Primitive(HalfSpace{Vector3d(0, 0, 1), 0.0});
-  scene.bodies.push_back(ground);
-  disableUnreachable(robot, scene);
-  for (const char* moving : {"b", "c", "d"}) {
-    EXPECT_EQ(reasonFor(scene, "far", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "wall", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "ground", moving), "out of reach");
-    EXPECT_EQ(reasonFor(scene, "elsewhere", moving), "checked");
+  scene.bodies.push_back(worldBox("mark", "hand", {0.2, 0, 0}, Vector3d::Constant(0.1)));
+  BodyDescription held = worldBox("held", "base", {0, 0, 1}, Vector3d::Constant(0.1));
+  held.is_world = false;
+  held.is_attached = true;
+  scene.bodies.push_back(held);
+  BodyDescription tile = worldBox("tile", "world", {0, 0, 1}, Vector3d::Constant(0.1));
+  tile.map = "map";
+  scene.bodies.push_back(tile);
+  for (const std::string prefix : {"", "left/"}) {
+    for (BodyDescription& body : scene.bodies) body.frame = prefix + body.frame;
+    setRigidRoots(robot, scene, prefix);
+    EXPECT_EQ(reasonFor(scene, "table", "base"), "rigidly joined");
+    for (const char* moving : {"arm", "hand"}) {
+      EXPECT_EQ(reasonFor(scene, "table", moving), "checked");
+      EXPECT_EQ(reasonFor(scene, "elsewhere", moving), "checked");
+    }
+    EXPECT_EQ(reasonFor(scene, "elsewhere", "base"), "checked");
+    EXPECT_EQ(reasonFor(scene, "mark", "hand"), "in the same frame");
+    EXPECT_EQ(reasonFor(scene, "mark", "arm"), "checked");
+    EXPECT_EQ(reasonFor(scene, "held", "base"), "rigidly joined");
+    EXPECT_EQ(reasonFor(scene, "held", "table"), "checked") << "attached objects are checked against the world";
+    EXPECT_EQ(reasonFor(scene, "held", "arm"), "checked");
+    EXPECT_EQ(reasonFor(scene, "tile", "base"), "checked") << "what a map shows comes and goes";
   }
-  EXPECT_EQ(reasonFor(scene, "near", "a"), "rigidly joined");
-  EXPECT_EQ(reasonFor(scene, "near", "c"), "checked");
-  EXPECT_EQ(reasonFor(scene, "near", "b"), "out of reach");  // it rotates in place, 1 m away
-  EXPECT_EQ(reasonFor(scene, "elsewhere", "a"), "checked");
+  for (const LeftOut& pair : planScene(scene).left_out) {
+    if (pair.name != "base - table") continue;
+    ASSERT_TRUE(pair.reason.rigid);
+    EXPECT_TRUE(pair.reason.rigid->X_AB.isApprox(Isometry3d(Eigen::Translation3d(3.0, 0.0, -1.0)), 1e-12));
+    return;
+  }
+  FAIL() << "base and table";
 }
 
 }  // namespace sdf_ccd::robot_pairs_test

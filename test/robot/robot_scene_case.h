@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "model/name_pair.h"
+#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd::test {
@@ -46,10 +48,10 @@ inline std::string chain() {
          joint("c", "d", "fixed", "0.5 0 0") + joint("d", "tool_frame", "fixed", "0 0 0") + "</robot>";
 }
 
+/// Why the plan leaves the pair out; "checked" if it does not.
 inline std::string reasonFor(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const AllowedPair& pair : scene.allowed) {
-    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
-  }
+  for (const LeftOut& pair : planScene(scene).left_out)
+    if (pair.isPair() && (pair.name == pairName(a, b) || pair.name == pairName(b, a))) return pair.reason.text;
   return "checked";
 }
 

@@ -74,10 +74,7 @@ TEST(PlanThrough, KeepsWhatIsNotKnownOfTheMotion) {
   CycleMotion motion;
   motion.times = {0.0, 1.0};
   motion.X_WB = {{still, still}, {apart, apart}};
-  const auto verdict = [&](const CycleMotion& motion) {
-    const PlannedMotion plan = planThrough(motion, {true, true});
-    return checkMotion(scene, {}, plan).verdict;
-  };
+  const auto verdict = [&](const CycleMotion& motion) { return checkMotion(scene, {}, planThrough(motion)).verdict; };
   EXPECT_EQ(verdict(motion), Verdict::kClear);
   CycleMotion unsure = motion;
   unsure.motion_error = {0.2, 0.0};
@@ -93,12 +90,10 @@ TEST(PlanThrough, RefusesWhatDoesNotFit) {
   CycleMotion good;
   good.times = {0.0, 1.0};
   good.X_WB = {{still, still}, {still, still}};
-  EXPECT_NO_THROW(planThrough(good, {true, true}));
-  EXPECT_NO_THROW(planThrough(good, {true, false}));
-  EXPECT_THROW(planThrough(good, {}), std::invalid_argument);
+  EXPECT_NO_THROW(planThrough(good));
   const auto expectRefused = [](CycleMotion motion, const std::function<void(CycleMotion&)>& spoil) {
     spoil(motion);
-    EXPECT_THROW(planThrough(motion, {true, true}), std::invalid_argument);
+    EXPECT_THROW(planThrough(motion), std::invalid_argument);
   };
   expectRefused(good, [](CycleMotion& motion) { motion.X_WB[1].push_back(motion.X_WB[1][0]); });
   expectRefused(good, [](CycleMotion& motion) { motion.times = {5.0, 6.0}; });

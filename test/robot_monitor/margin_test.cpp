@@ -26,7 +26,7 @@ CycleResult slide(const SharedScene& scene, double height, double far, double ma
   motion.X_WB = {{translation({far, 0, height + 0.1}), translation({far, 1, height + 0.1})}, {Isometry3d::Identity()}};
   CycleRequest request;
   request.margin = margin;
-  return checkMotion(scene, {}, planThrough(motion, {true, false}), request);
+  return checkMotion(scene, {}, planThrough(motion), request);
 }
 
 /// The same of two motions of a planner, one of which is as above.
@@ -40,7 +40,7 @@ MotionVerdict slideAmongMany(const SharedScene& scene, double height, double far
                motion.times = {0.0, 1.0};
                const double at = height + 0.1 + double(i);
                motion.X_WB = {{translation({far, 0, at}), translation({far, 1, at})}, {Isometry3d::Identity()}};
-               return planThrough(motion, {true, false});
+               return planThrough(motion);
              },
              request)
       .at(0);

@@ -31,7 +31,7 @@ class ChangingLoopTest : public MonitorLoopTest {
   void change() { loop_->adopt(*loop_->prepare(checked(editor_.next(description_)))); }
 
   static std::shared_ptr<CheckedWorld> checked(const std::shared_ptr<const WorldSnapshot>& snapshot) {
-    return std::make_shared<CheckedWorld>(snapshot, std::vector<UnreachablePair>());
+    return std::make_shared<CheckedWorld>(snapshot);
   }
 
   SceneDescription description_;

@@ -121,6 +121,7 @@ TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   tile.name = "octomap/0_0_0";
   tile.frame = "base";
   tile.is_world = true;
+  tile.geometry.push_back({Primitive(Sphere{0.1}), Isometry3d::Identity(), "sphere"});
   scene_->setTiles({tile}, {}, nullptr);
   SceneChange attach = box();
   attach.type = SceneChange::ATTACH;
@@ -132,6 +133,8 @@ TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   apply({attach, other, box("crate")});
   EXPECT_EQ(reason("box", "base"), "attached, and allowed by touch_links");
   EXPECT_EQ(reason("other", "box"), "attached, and allowed by touch_links");
+  EXPECT_EQ(reason("other", "base"), "rigidly joined");
+  EXPECT_EQ(reason("other", "arm"), "checked");
   for (const char* object : {"table", "crate", "octomap/0_0_0"}) EXPECT_EQ(reason("box", object), "checked") << object;
 }
 

@@ -58,10 +58,10 @@ class ChangingSceneCase : public ::testing::Test {
       if (body.name == name) return body;
     return {};
   }
-  /// The reason why the pair is left out; "checked" if it is not.
+  /// The reason why the plan leaves the pair out; "checked" if it does not.
   std::string reason(const std::string& a, const std::string& b) const {
-    for (const AllowedPair& pair : description().allowed)
-      if (namePair(pair.body_a, pair.body_b) == namePair(a, b)) return pair.reason;
+    for (const LeftOut& pair : planScene(description()).left_out)
+      if (pair.isPair() && (pair.name == pairName(a, b) || pair.name == pairName(b, a))) return pair.reason.text;
     return "checked";
   }
 

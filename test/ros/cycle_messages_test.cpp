@@ -134,14 +134,10 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
 }
 
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
-  DescribedScene described = describedWorld();
-  described.scene.bodies.resize(3);
-  UnreachablePair pair;  // of each other, although they are close
-  pair.ball_a = pair.ball_b = {Vector3d::Zero(), 0.1};
-  pair.body_a = 0;
-  pair.body_b = 1;
-  described.unreachable = {pair};
-  loop_ = std::make_unique<MonitorLoop>(handFootAndPlate(), described, MonitorParameters());
+  Scene joined = *handFootAndPlate();
+  joined.left_out.push_back({"pair", "hand - foot", {"rigidly joined"}, 0, 1});
+  joined.left_out.back().reason.rigid = std::make_shared<const RigidPose>(RigidPose{Isometry3d::Identity(), {}, {}});
+  loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(joined), describedWorld(), MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);
     sendFoot(10.0 + i * kPeriod, 0.15);

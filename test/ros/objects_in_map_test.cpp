@@ -47,7 +47,7 @@ class ObjectsInMapTest : public ::testing::Test {
 
 /// Also in a frame below the robot's, which no link has: as an object moves there, the robot pushes it into the map.
 TEST_F(ObjectsInMapTest, WhatIsBelowAFrameOfTheRobotMovesWithIt) {
-  const auto robot = firstWorld(test::build(description_), description_, {});
+  const auto robot = firstWorld(test::build(description_), description_);
   for (const std::string frame : {"world", "map"}) {
     const auto found = masks(*robot, frame, 102.5);
     ASSERT_EQ(found.size(), 5u);
@@ -65,9 +65,9 @@ TEST_F(ObjectsInMapTest, WhatIsBelowAFrameOfTheRobotMovesWithIt) {
 TEST_F(ObjectsInMapTest, WhatIsGraspedIsWhereItWasAndStillIs) {
   description_.bodies[1].is_world = false;
   description_.bodies[1].frame = "hand";
-  const auto built = firstWorld(test::build(description_), description_, {});
+  const auto built = firstWorld(test::build(description_), description_);
   const auto grasped = [&](double time) {
-    return masks(CheckedWorld(built->snapshot, {}, {{"of world", ros::Time(time)}}), "world", 0.0, true).at("of world");
+    return masks(CheckedWorld(built->snapshot, {{"of world", ros::Time(time)}}), "world", 0.0, true).at("of world");
   };
   EXPECT_TRUE(isAt(grasped(105.0), 105.0));
   EXPECT_TRUE(grasped(104.9).isWithin(Vector3d(104.95, 0, 0), 0.01));

@@ -64,13 +64,13 @@ TEST_F(OverlapWarnings, AreInTheStateFromTheStart) {
 TEST_F(OverlapWarnings, FollowTheScene) {
   Scene next = *scene_;
   next.pairs.clear();  // as if a request has left out all of them
-  const auto world = firstWorld(std::make_shared<const Scene>(next), described_.scene, {});
+  const auto world = firstWorld(std::make_shared<const Scene>(next), described_.scene);
   const std::unique_ptr<LoopChange> change = loop_->prepare(world);
   EXPECT_EQ(warnings().size(), 2U);
   loop_->adopt(*change);
   ASSERT_EQ(warnings().size(), 1U);
   EXPECT_TRUE(begins(warnings()[0], "1 pair that overlaps at rest is set aside: base - wheel ("));
-  loop_->adopt(*loop_->prepare(firstWorld(scene_, described_.scene, {})));
+  loop_->adopt(*loop_->prepare(firstWorld(scene_, described_.scene)));
   EXPECT_EQ(warnings().size(), 2U);
 }
 

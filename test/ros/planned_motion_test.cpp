@@ -46,7 +46,7 @@ class PlannedMotionTest : public ::testing::Test {
   }
 
   CycleMotion motion(const QueryMotion::Request& request) {
-    planned_ = toPlannedMotion(request, {scene_, {}, robot_, "virtual", unreachable_, now_, MotionSampling()});
+    planned_ = toPlannedMotion(request, {scene_, robot_, "virtual", now_, MotionSampling()});
     samples_ = planned_.samples;
     CycleMotion motion;
     planned_.piece(0, planned_.waypoints.size() - 1, motion);
@@ -60,7 +60,6 @@ class PlannedMotionTest : public ::testing::Test {
   RobotModel robot_{kUrdf};
   Scene scene_;
   CurrentPoses now_;
-  std::vector<UnreachablePair> unreachable_;
   PlannedMotion planned_;
   std::vector<double> samples_;
 };
@@ -140,6 +139,25 @@ TEST_F(PlannedMotionTest, LinkPosesAreTakenAsTheyAre) {
   }
   request.links = {"tail"};
   EXPECT_EQ(refusal(request), "the robot has no link tail");
+}
+
+/// Frames of tf are known up to different times: what is not named moves as one.
+TEST_F(PlannedMotionTest, OtherLinksAreWhereTheirJointsAre) {
+  QueryMotion::Request request;
+  request.links = {"base"};
+  request.poses.resize(2);
+  request.poses[1].time_from_start = ros::Duration(1.0);
+  for (LinkPoses& poses : request.poses) poses.poses.push_back(toPose(Isometry3d::Identity()));
+  now_.missing[0] = "";
+  now_.X_WB[0].translation().x() = 9.0;
+  EXPECT_NE(motion(request).missing[0], "");
+  const Isometry3d X_PL = Eigen::Translation3d(0.0, 0.0, 1.0) * Eigen::AngleAxisd(0.3, Vector3d::UnitY());
+  now_.joints.X_PL["swing"] = X_PL;
+  const CycleMotion result = motion(request);
+  EXPECT_EQ(result.missing[0], "");
+  EXPECT_TRUE(result.X_WB[0][1].isApprox(now_.X_WR * X_PL, 1e-12));
+  now_.root_missing = "no map";
+  EXPECT_EQ(motion(request).missing[0], "no map");
 }
 
 /// Two links that rotate by +2 and −2 rad about one axis rotate by 4 rad relative to each other: each takes its own

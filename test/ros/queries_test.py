@@ -8,8 +8,8 @@ import rostest
 from geometry_msgs.msg import Point, Pose
 from std_msgs.msg import Header
 
-from monitor_case import PLATE, RADIUS, MonitorCase, pair_of, trajectory, wait_for_service
-from sdf_ccd.msg import ContactArray, LinkPoses, PairContact, RobotMotion
+from monitor_case import PLATE, RADIUS, MonitorCase, trajectory, wait_for_service
+from sdf_ccd.msg import LinkPoses, RobotMotion
 from sdf_ccd.srv import QueryMotionRequest, QueryMotionResponse, QueryMotions, QueryMotionsRequest, QueryPoints
 
 
@@ -69,37 +69,14 @@ class QueriesTest(MonitorCase):
         self.assertFalse(answer.success)
         self.assertIn('joint slide: position 2.5 is beyond its limits [-2, 2]', answer.message)
 
-    def test_joint_beyond_its_limits_makes_pairs_that_were_out_of_reach_unchecked(self):
-        def beyond(message):
-            pair = pair_of(message, 'ball', 'far')
-            return (pair is not None and pair.verdict == PairContact.NOT_CHECKED and
-                    'out of reach only while joint slide' in pair.reason)
-
-        for _ in range(5):
-            self.send(2.3)  # within the margin
-        self.assertIsNone(self.contacts.find(beyond, 0.0))
-        self.contacts.clear()
-        for _ in range(5):
-            self.send(2.5)
-        message = self.contacts.find(beyond)
-        self.assertIsNotNone(message)
-        self.assertEqual(message.verdict, ContactArray.NOT_CHECKED)
-        self.assertIsNone(pair_of(message, 'other', 'far'))
-
-        request = trajectory('slide', [1.0, 2.9])
-        request.allow_beyond_limits = True
-        answer = self.query_motion(request)
-        self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+    def test_a_joint_beyond_its_limits_is_checked(self):
+        for end, verdict in ((2.9, QueryMotionResponse.CLEAR), (2.95, QueryMotionResponse.CONTACT)):
+            request = trajectory('slide', [1.0, end])
+            request.allow_beyond_limits = True
+            answer = self.query_motion(request)
+            self.assertTrue(answer.success, answer.message)
+            self.assertEqual(answer.verdict, verdict)
         self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'ball', 'far'})
-        request = QueryMotionRequest(links=['ball'])
-        for i in range(2):
-            pose = Pose()
-            pose.position.x, pose.orientation.w = 2.9 + 0.1 * i, 1.0
-            request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
-        self.assertEqual(self.query_motion(request).verdict, answer.NOT_CHECKED)
-        for _ in range(30):
-            self.send(0.0)
 
     def test_query_motion_on_splines_and_with_a_margin(self):
         for _ in range(3):

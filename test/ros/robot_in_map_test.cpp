@@ -23,7 +23,7 @@ class RobotInMapTest : public ::testing::Test {
 
   SceneDescription description_{
       {test::body("hand", Sphere{0.1}), test::body("arm", Sphere{0.1}), test::body("table", Sphere{0.1}, true)}, {}};
-  std::shared_ptr<const CheckedWorld> world_ = firstWorld(test::build(description_), description_, {});
+  std::shared_ptr<const CheckedWorld> world_ = firstWorld(test::build(description_), description_);
   TfHistory history_{"world"};
 };
 
@@ -54,7 +54,7 @@ TEST_F(RobotInMapTest, NoPoseIsKnownInAGapOfTransforms) {
 
 TEST_F(RobotInMapTest, WhatWasAttachedLaterWasElsewhere) {
   sendHand(100, 105);
-  const CheckedWorld world(world_->snapshot, {}, {{"hand", ros::Time(103.0)}});
+  const CheckedWorld world(world_->snapshot, {{"hand", ros::Time(103.0)}});
   for (const double stamp : {102.5, 103.5}) {
     RobotInMap robot(history_, "world", ros::Time(stamp), 1.5);
     robot.update(world);

@@ -108,8 +108,7 @@ class Arm {
   int cycles_[4] = {0, 0, 0, 0}, limited_ = 0, warned_ = 0;
 };
 
-/// A gripper of meshes whose sliding finger is pressed on a wall. Out of its reach, as long as the finger keeps to
-/// its limits, is a ball.
+/// A gripper of meshes whose sliding finger is pressed on a wall, far from a ball.
 class Gripper {
  public:
   Gripper() {
@@ -129,8 +128,6 @@ class Gripper {
     std::vector<int> links = torques_->linksOf(*scene);
     torques_->swapLinks(links);
   }
-
-  const DescribedScene& described() const { return described_; }
 
   /// One second of motion that ends where it begins, and all that the thread of the cycles does about it.
   void move() {
@@ -241,11 +238,9 @@ TEST(TfAllocation, NoneWhilePairsWaitForAFrameThatIsSlow) {
   EXPECT_GT(arm.warned(), 700);
 }
 
-/// With wrenches, torques, deepest points and what is drawn, while the limits of the finger's joint are watched.
+/// With wrenches, torques, deepest points and what is drawn.
 TEST(TfAllocation, NoneForAGripperInContactWithASlidingFinger) {
   Gripper gripper;
-  const std::vector<UnreachablePair>& watched = gripper.described().unreachable;
-  ASSERT_TRUE(std::any_of(watched.begin(), watched.end(), [](const auto& pair) { return !pair.slides.empty(); }));
   EXPECT_EQ(steadyAllocations(gripper), 0);
   EXPECT_GT(gripper.contacts(), 1400);
   EXPECT_GT(gripper.measuredTorques(), 1000);

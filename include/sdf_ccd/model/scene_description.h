@@ -51,30 +51,21 @@ inline bool operator==(const BodyPlace& a, const BodyPlace& b) {
 /// A rigid body: a robot's link or an object of the world.
 struct BodyDescription : BodyPlace {
   std::vector<GeometryDescription> geometry;
-};
 
-/// A joint that slides, and the range of positions that is assumed of it [m].
-struct SlideRange {
-  std::string joint;
-  double low;
-  double high;
-};
+  bool is_attached = false;  ///< an object that a link carries: it is also checked against objects of the world at rest
 
-/// Why two bodies can never meet, or never move relative to each other, as a robot's joints move them.
-struct PairProof {
-  BoundingBall ball_a, ball_b;       ///< contain the geometry, in the body's frame; infinite for half-spaces
-  std::vector<SlideRange> slides;    ///< prismatic joints between them, which must stay in their ranges
-  std::optional<Isometry3d> X_AB;    ///< of a pair that is rigidly joined; it has no slides
+  /// The first of the links that only fixed joints join to the body's frame, and the frame in it. Bodies of the same
+  /// one do not move relative to each other. Empty if no such link is known. See setRigidRoots().
+  std::string rigid_root;
+  Isometry3d X_root_frame = Isometry3d::Identity();
 };
 
 /// A pair that is allowed to collide, so it is left out, by the bodies' names.
 struct AllowedPair {
   std::string body_a;
   std::string body_b;
-  std::string reason;   ///< "SRDF: Adjacent", "rigidly joined", …
-  bool proved = false;  ///< their bodies can never meet: rigidly joined, or out of reach
-  double depth = 0.0;   ///< if they overlap at rest: of the deepest point found there [m]
-  std::shared_ptr<const PairProof> proof = {};  ///< of a proved pair; null: nobody can tell whether it holds
+  std::string reason;  ///< "SRDF: Adjacent", "adjacent", …
+  double depth = 0.0;  ///< if they overlap at rest: of the deepest point found there [m]
 };
 
 /// A pair that a scene leaves out although it needs a check.

@@ -21,12 +21,18 @@ struct PlannedPair {
   bool b_shell_a_field;
 };
 
+/// How two bodies are that do not move relative to each other.
+struct RigidPose {
+  Isometry3d X_AB;
+  BoundingBall ball_a, ball_b;  ///< contain their geometry, each in its body's frame; infinite for half-spaces
+};
+
 /// Why something is left out.
 struct LeftOutReason {
   std::string text;    ///< empty: it is not left out
   double depth = 0.0;  ///< as AllowedPair::depth [m]
-  /// Of a pair that is out of reach, rigidly joined or in the same frame, which holds for body_a and body_b of LeftOut.
-  std::shared_ptr<const PairProof> proof = {};
+  /// Of a pair that is rigidly joined or in the same frame, for body_a and body_b of LeftOut. Null for all others.
+  std::shared_ptr<const RigidPose> rigid = {};
 };
 
 /// A pair, field or shell that a plan leaves out.
@@ -63,11 +69,12 @@ struct PlanOptions {
 /// Plans which fields and shells the pairs of a scene need.
 ///
 /// Left out are: pairs of two bodies of the world (there are many, so they are not listed), that are allowed, in the
-/// same frame (unless one is a tile of a map, which changes there), or of a body without geometry; fields and shells
-/// that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these cannot be covered
-/// with points). A body that is one large primitive (a table, a wall) only has a field against bodies too small to
-/// contain it: their shells find every contact in its exact field. All others have both roles. The contacts of a pair
-/// of two bodies without a shell (an attached map and a map or a half-space of the world) have no force.
+/// same frame or rigidly joined (unless one is a tile of a map, which changes there), or of a body without geometry;
+/// fields and shells that no pair uses; shells of bodies with a half-space or a voxel map among their geometry (these
+/// cannot be covered with points). A body that is one large primitive (a table, a wall) only has a field against bodies
+/// too small to contain it: their shells find every contact in its exact field. All others have both roles. The
+/// contacts of a pair of two bodies without a shell (an attached map and a map or a half-space of the world) have no
+/// force.
 ///
 /// No pair is left out because it cannot be tested. A pair of two bodies with half-spaces stays, and is NOT_CHECKED;
 /// Scene::warnings name it. So is a pair with a body that cannot be checked, which requires nothing to be built; but if

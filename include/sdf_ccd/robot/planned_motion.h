@@ -9,7 +9,6 @@
 #include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/motion/cycle_motion.h"
 #include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd {
 
@@ -108,11 +107,6 @@ struct PlannedMotion {
 
   std::vector<double> samples;  ///< times of the plan's points [s], from the first
 
-  /// Why a pair may meet along this motion, that a scene leaves out as out of reach or rigidly joined; empty if it
-  /// certainly does not. Checks call it for all such pairs of their scene; if it is not set, none of them is checked.
-  std::function<std::string(const UnreachablePair& pair)> whyReachable;
-  std::vector<UncheckedPair> unchecked;  ///< other pairs that the scene leaves out though they may meet
-
   std::vector<AssumedJoint> assumed;
   std::string notes;  ///< notes for the user about these, by the author of the plan; may be empty
 };
@@ -131,11 +125,8 @@ PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, cons
                         const MotionSampling& sampling = {});
 
 /// The motion of all bodies through given poses, at the motion's times; each takes the shorter rotation between two.
-/// @param is_moved  per body: whether its poses come from the plan, not from the robot's joints. Two bodies of which
-/// neither is moved, and which the scene leaves out as out of reach or rigidly joined, are taken to be where the
-/// robot's joints can have them.
-/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, two
-/// poses of a body leave the direction of its rotation open (kAmbiguousTurn), or a body moves that is said not to.
-PlannedMotion planThrough(CycleMotion motion, const std::vector<bool>& is_moved);
+/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, or two
+/// poses of a body leave the direction of its rotation open (kAmbiguousTurn).
+PlannedMotion planThrough(CycleMotion motion);
 
 }  // namespace sdf_ccd

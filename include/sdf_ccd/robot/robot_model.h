@@ -77,26 +77,15 @@ class RobotModel {
   /// apart in the tree may be apart in space, too, whatever lies between them: an arm may hit a mast beside its base.
   bool adjacent(const std::string& link_a, const std::string& link_b) const;
 
-  /// Lower and upper bound of the distance between two links' origins over all joint positions [m].
-  struct Reach {
-    double nearest;
-    double farthest;  ///< infinite for floating, planar or unlimited prismatic joints
-  };
-
-  /// Revolute joints may rotate by a full revolution, because real ones overshoot their limits. Prismatic joints may
-  /// exceed theirs by a tenth of the range, and by at least 1 cm (slidesBetween()). Beyond that the bounds do not hold;
-  /// a caller that leaves out pairs because of them must monitor these joints. Limits may be in either order; two equal
-  /// ones count as none. Exact if at most one joint between the links moves; with more joints, the triangle inequality
-  /// over the distances between their axes. The length of an axis does not matter; links are assumed to be joined as in
-  /// the URDF.
+  /// Upper bound of the distance between a point of link A and one of link B, each in its link's frame, over all joint
+  /// positions [m]; infinite if a floating, planar or unlimited prismatic joint is between them.
+  ///
+  /// Revolute joints may rotate by a full revolution, because real ones overshoot their limits; prismatic joints may
+  /// exceed theirs by a tenth of the range, and by at least 1 cm. Limits may be in either order; two equal ones count
+  /// as none. Exact if at most one joint between the links moves; with more joints, the triangle inequality over the
+  /// distances between their axes.
   /// @throws std::invalid_argument for a link that does not exist.
-  Reach reach(const std::string& link_a, const std::string& link_b) const;
-
-  /// The same for a point of link A and a point of link B, each in its link's frame [m].
-  Reach reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
-
-  /// The prismatic joints between two links, with the ranges beyond which reach() does not hold.
-  std::vector<SlideRange> slidesBetween(const std::string& link_a, const std::string& link_b) const;
+  double reach(const std::string& link_a, const Vector3d& p_A, const std::string& link_b, const Vector3d& p_B) const;
 
   /// The joint position whose pose of the child link in the parent link's frame is closest to the given one [rad or m].
   /// A pose does not determine whole revolutions: for a revolute joint, the position within its limits if there is one,

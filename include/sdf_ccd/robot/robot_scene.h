@@ -62,11 +62,9 @@ struct RobotSceneOptions {
 /// read once and scaled; links that use it with the same scale share it.
 ///
 /// A bad or missing mesh, or a collision element that cannot be read, only affects its link: BodyDescription::failure
-/// says "link forearm: package://…: no such package", and its geometry is empty. Left out are, in this order, pairs
-/// that are rigidly joined, disabled by the SRDF, adjacent (unless requested, or enabled by the SRDF by name), and out
-/// of reach of each other for all joint positions, by RobotModel::reach() between balls around their geometry. The
-/// first and the last rest on assumptions, AllowedPair::proof, which checks of planned motions examine; in cycles they
-/// must be monitored: unreachablePairs().
+/// says "link forearm: package://…: no such package", and its geometry is empty. Pairs may touch that are disabled by
+/// the SRDF, or adjacent (unless requested, or enabled by the SRDF by name). planScene() leaves out others that are
+/// rigidly joined, as setRigidRoots() finds them.
 /// @param warnings  further notes for the user, one per line: files found with another spelling, an SRDF with another
 /// robot's name or with links that the robot does not have; RobotModel::warnings(), Srdf::warnings. Failures are not
 /// repeated here.
@@ -74,21 +72,9 @@ struct RobotSceneOptions {
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                                const RobotSceneOptions& options, std::vector<std::string>& warnings);
 
-/// Disables pairs of a world object and a link, where the object's frame is the robot's root or rigidly joined to it:
-/// links that cannot reach the object, and links that are rigidly joined to the root. Call it after the objects were
-/// added to `scene`.
-void disableUnreachable(const RobotModel& robot, SceneDescription& scene);
-
-/// A pair that is left out of a scene because its bodies never meet, or never move relative to each other, and the
-/// assumptions of this.
-struct UnreachablePair : PairProof {
-  int body_a = -1, body_b = -1;  ///< in SceneDescription::bodies
-};
-
-/// Those that are left out for such a reason, and not because a rule of the user allows them to touch.
-/// @param bodies   of the scene.
-/// @param allowed  all that will be, or some of them.
-std::vector<UnreachablePair> unreachablePairs(const std::vector<BodyDescription>& bodies,
-                                              const std::vector<AllowedPair>& allowed);
+/// Sets BodyDescription::rigid_root of bodies in links' frames; of objects of the world only if the link is rigidly
+/// joined to the robot's root. Call it again after bodies were added to `scene`.
+/// @param prefix  of the frames of links, where these are not the links' names.
+void setRigidRoots(const RobotModel& robot, SceneDescription& scene, const std::string& prefix = {});
 
 }  // namespace sdf_ccd

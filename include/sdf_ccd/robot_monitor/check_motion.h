@@ -26,8 +26,9 @@ class MotionCheck {
   /// Checks the next piece, of some milliseconds, and returns its motion, which is valid until the next call.
   const CycleMotion& next();
 
-  /// The result of all checked pieces, and of uncheckedPairs(). The pairs' spans are {0, 1}, the first and the last time
-  /// of ends().
+  /// The result of all checked pieces. Pairs that the scene leaves out as rigidly joined or in the same frame, but that
+  /// the motion moves relative to each other, are added as NOT_CHECKED. The pairs' spans are {0, 1}, the first and the
+  /// last time of ends().
   CycleResult result() const;
   /// The bodies' poses at the first and the last time checked.
   const CycleMotion& ends() const;
@@ -36,10 +37,6 @@ class MotionCheck {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// The pairs that a scene leaves out because they never meet, though the motion may bring them together or does not tell,
-/// and those of PlannedMotion::unchecked. They are NOT_CHECKED.
-std::vector<UncheckedPair> uncheckedPairs(const Scene& scene, const PlannedMotion& motion);
 
 /// Checks all of a planned motion.
 CycleResult checkMotion(std::shared_ptr<const Scene> scene, const MonitorOptions& options, const PlannedMotion& motion,
@@ -83,7 +80,8 @@ struct MotionVerdict {
   int pair = -1;             ///< in Scene::pairs: the first one with the verdict; −1 if that is CLEAR
   double time = -1.0;        ///< of the contact, or else the begin of the part of the motion with the verdict [s];
                              ///< −1 if CLEAR. The first such time of all with MotionsRequest::list_pairs
-  std::vector<PairVerdict> pairs;  ///< all that are not CLEAR, by their times, if MotionsRequest::list_pairs
+  std::vector<PairVerdict> pairs;        ///< all that are not CLEAR, by their times, if MotionsRequest::list_pairs
+  std::vector<UncheckedPair> unchecked;  ///< pairs that MotionCheck::result() adds, of the part that was checked
 };
 
 /// Checks motions on all cores, independently. checkMotion() gives the full result of one that is not CLEAR.

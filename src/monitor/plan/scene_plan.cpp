@@ -9,7 +9,6 @@
 
 #include "body/body_builder.h"
 #include "model/name_pair.h"
-#include "model/proofs.h"
 #include "surface_needs.h"
 
 namespace sdf_ccd {
@@ -18,23 +17,24 @@ namespace {
 /// Sizes that tell whether one body can lie inside another one [m].
 struct Extent {
   double longest_side = 0.0;  ///< of the box around a single primitive; 0 for other bodies
-  double diagonal = 0.0;      ///< upper bound of the distance between two points of the body
+  BoundingBall ball;          ///< contains the body; infinite for half-spaces and tiles of maps
 };
 
 Extent extentOf(const BodyDescription& body) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (!body.map.empty()) return {0.0, {Vector3d::Zero(), kInfinite}};  // there are many
   Extent extent;
   AlignedBox3d all;
   for (const GeometryDescription& geometry : body.geometry) {
     const auto* primitive = std::get_if<Primitive>(&geometry.shape);
     const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
     if (mesh && !*mesh) continue;  // building the body will report this failure
-    if (geometry.watertight_voxels) return {0.0, std::numeric_limits<double>::infinity()};  // never has a shell
     const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
-    if (!box.sizes().allFinite()) return {0.0, std::numeric_limits<double>::infinity()};
+    if (!box.sizes().allFinite()) return {0.0, {Vector3d::Zero(), kInfinite}};
     for (int k = 0; k < 8; ++k) all.extend(geometry.X_BG * box.corner(AlignedBox3d::CornerType(k)));
     if (primitive && body.geometry.size() == 1) extent.longest_side = box.sizes().maxCoeff();
   }
-  extent.diagonal = all.isEmpty() ? 0.0 : all.diagonal().norm();
+  if (!all.isEmpty()) extent.ball = {all.center(), 0.5 * all.diagonal().norm()};
   return extent;
 }
 
@@ -67,60 +67,37 @@ bool isPlanned(const BodyDescription& body) {
   return body.failure.empty() || !body.map.empty();
 }
 
-/// The proof about a pair whose bodies are named in the other order.
-std::shared_ptr<const PairProof> reversed(const PairProof& proof) {
-  PairProof other{proof.ball_b, proof.ball_a, proof.slides, {}};
-  if (proof.X_AB) other.X_AB = proof.X_AB->inverse();
-  return std::make_shared<const PairProof>(std::move(other));
-}
-
-/// A ball about the body's origin that contains it.
-BoundingBall ballAbout(const BodyDescription& body) {
-  BoundingBall ball;
-  for (const GeometryDescription& geometry : body.geometry) {
-    const auto* primitive = std::get_if<Primitive>(&geometry.shape);
-    const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
-    if (mesh && !*mesh) continue;
-    const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
-    if (!box.sizes().allFinite()) return {Vector3d::Zero(), std::numeric_limits<double>::infinity()};
-    for (int k = 0; k < 8; ++k)
-      ball.radius = std::max(ball.radius, (geometry.X_BG * box.corner(AlignedBox3d::CornerType(k))).norm());
-  }
-  return ball;
-}
-
-std::shared_ptr<const PairProof> inSameFrame(const BodyDescription& a, const BodyDescription& b) {
-  return std::make_shared<const PairProof>(
-      PairProof{ballAbout(a), ballAbout(b), {}, Isometry3d(a.X_frame_B.inverse() * b.X_frame_B)});
-}
+/// A body while its pairs are planned.
+struct Planned {
+  const BodyDescription* body = nullptr;
+  bool is_large = false, has_pair = false, has_half_space = false;
+  Extent extent;
+};
 
 /// Why the pair is not tested; empty if it is.
-LeftOutReason whyLeftOut(const BodyDescription& a, const BodyDescription& b,
+LeftOutReason whyLeftOut(const Planned& of_a, const Planned& of_b,
                          const std::map<NamePair, const AllowedPair*>& allowed) {
+  const BodyDescription &a = *of_a.body, &b = *of_b.body;
   const auto found = allowed.find(namePair(a.name, b.name));
-  if (found != allowed.end()) {
-    const AllowedPair& pair = *found->second;
-    LeftOutReason reason{pair.reason, pair.depth};
-    if (isProof(pair.reason) && pair.proof) reason.proof = pair.body_a == a.name ? pair.proof : reversed(*pair.proof);
-    return reason;
-  }
+  if (found != allowed.end()) return {found->second->reason, found->second->depth};
   const bool has_tile = !a.map.empty() || !b.map.empty();  // what a map shows comes and goes, wherever its frame is
-  if (a.frame == b.frame && !has_tile) return {"in the same frame", 0.0, inSameFrame(a, b)};
+  const auto rigid = [&](const char* text, const Isometry3d& X_AB) {
+    return LeftOutReason{text, 0.0,
+                         std::make_shared<const RigidPose>(RigidPose{X_AB, of_a.extent.ball, of_b.extent.ball})};
+  };
+  const bool is_with_world = (a.is_attached && b.is_world) || (a.is_world && b.is_attached);
+  if (!has_tile && !is_with_world && !a.rigid_root.empty() && a.rigid_root == b.rigid_root)
+    return rigid("rigidly joined", (a.X_root_frame * a.X_frame_B).inverse() * b.X_root_frame * b.X_frame_B);
+  if (!has_tile && a.frame == b.frame) return rigid("in the same frame", a.X_frame_B.inverse() * b.X_frame_B);
   if (!isPlanned(a) || !isPlanned(b)) return {};
   if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
   return {};
 }
 
-/// A body while its pairs are planned.
-struct Planned {
-  bool is_large = false, has_pair = false, has_half_space = false;
-  Extent extent;
-};
-
 /// Without a shell of the large body, its contacts with a small one are found in its field alone: it must be too long
 /// to lie inside the small one.
 bool isOnlyAField(const Planned& large, const Planned& small) {
-  return large.is_large && !small.is_large && large.extent.longest_side > small.extent.diagonal;
+  return large.is_large && !small.is_large && large.extent.longest_side > 2.0 * small.extent.ball.radius;
 }
 
 PlannedPair planPair(int i, int k, const SceneDescription& description, const PlanOptions& options,
@@ -163,18 +140,19 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
   std::vector<Planned> planned(count);
   for (int i = 0; i < count; ++i) {
     const BodyDescription& body = description.bodies[i];
+    planned[i].body = &body;
+    planned[i].extent = extentOf(body);
     planned[i].has_half_space = std::any_of(body.geometry.begin(), body.geometry.end(),
                                             [](const GeometryDescription& part) { return isHalfSpace(part); });
     if (!isPlanned(body)) continue;
     plan.needs[i].field = hidesVoxels(description, body);
     planned[i].is_large = isLarge(body, options);
-    planned[i].extent = extentOf(body);
   }
   for (int i = 0; i < count; ++i) {
     for (int k = i + 1; k < count; ++k) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
       if (a.is_world && b.is_world) continue;
-      const LeftOutReason reason = whyLeftOut(a, b, allowed);
+      const LeftOutReason reason = whyLeftOut(planned[i], planned[k], allowed);
       if (reason.text.empty()) {
         plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
       } else {

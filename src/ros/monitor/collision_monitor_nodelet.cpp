@@ -167,8 +167,7 @@ void CollisionMonitor::buildFields() {
       });
   checkCancelled();
   world_editor_ = std::make_unique<WorldEditor>(parameters_.scene);
-  first_world_ = std::make_shared<const CheckedWorld>(world_editor_->begin(described_.scene, plan, *scene),
-                                                      described_.unreachable);
+  first_world_ = std::make_shared<const CheckedWorld>(world_editor_->begin(described_.scene, plan, *scene));
   health_watch_.recordScene(*scene, described_, parameters_);
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),

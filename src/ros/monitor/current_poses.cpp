@@ -5,7 +5,6 @@
 
 #include "common/number_text.h"
 #include "motion/two_body_motion.h"
-#include "ros/monitor/planned_watch.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -51,7 +50,6 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
       now.joints.missing[joint] = problem;
     }
   }
-  now.joints_deviate = doJointsDeviate(robot, now.joints);
   for (const Body& body : scene.bodies) {
     Carrier carrier;
     const std::string of_body = withoutLeadingSlash(body.frame);

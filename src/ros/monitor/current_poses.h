@@ -20,7 +20,6 @@ struct CurrentPoses {
   Isometry3d X_WR = Isometry3d::Identity();  ///< of the robot's root link
   std::string root_missing;                  ///< why that is not known; empty if it is
   CurrentJoints joints;
-  bool joints_deviate = false;       ///< doJointsDeviate()
   std::vector<Isometry3d> X_WB;      ///< per body
   std::vector<std::string> missing;  ///< per body: why that is not known
   std::vector<Carrier> carriers;     ///< per body

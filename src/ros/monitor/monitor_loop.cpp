@@ -27,19 +27,11 @@ TfHistoryOptions historyOptions(const Scene& scene, const DescribedScene& descri
   return options;
 }
 
-/// The pairs that are left out only as long as tf agrees with the URDF.
-std::vector<PlannedPair> watchedPairs(const CheckedWorld& world) {
-  std::vector<PlannedPair> pairs;
-  for (const UnreachablePair& pair : world.unreachable) pairs.push_back({pair.body_a, pair.body_b, false, false});
-  return pairs;
-}
-
 /// Names of the bodies of the checked pairs, then of the watched ones.
-std::vector<std::pair<std::string, std::string>> trackedNames(const CheckedWorld& world) {
-  std::vector<std::pair<std::string, std::string>> names = pairNames(world.scene());
-  const BodyList& bodies = world.scene().bodies;
-  for (const UnreachablePair& pair : world.unreachable)
-    names.emplace_back(bodies[pair.body_a].name, bodies[pair.body_b].name);
+std::vector<std::pair<std::string, std::string>> trackedNames(const Scene& scene, const RigidGuard& guard) {
+  std::vector<std::pair<std::string, std::string>> names = pairNames(scene);
+  for (const PlannedPair& pair : guard.pairs())
+    names.emplace_back(scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name);
   return names;
 }
 
@@ -78,10 +70,10 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
       described_(std::move(described)),
       tf_options_(parameters.tf),
       history_(described_.fixed_frame, historyOptions(world_->scene(), described_, parameters)),
+      rigid_guard_(std::make_unique<RigidGuard>(world_->scene())),
       tracker_(std::make_unique<TfTracker>(history_, world_->bodies, world_->scene().pairs, tf_options_,
-                                           watchedPairs(*world_))),
+                                           rigid_guard_->pairs())),
       monitor_(world_->snapshot->scene, parameters.monitor),
-      reach_guard_(std::make_unique<ReachGuard>(*world_, described_)),
       contacts_(monitor_.scene(), parameters.contact_join),
       distances_(std::make_unique<PairDistances>(world_->snapshot->scene)),
       traits_finder_(
@@ -95,7 +87,7 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
 
 MonitorLoop::MonitorLoop(const std::shared_ptr<const Scene>& scene, const DescribedScene& described,
                          const MonitorParameters& parameters)
-    : MonitorLoop(firstWorld(scene, described.scene, described.unreachable), described, parameters) {}
+    : MonitorLoop(firstWorld(scene, described.scene), described, parameters) {}
 
 std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWorld> next) {
   auto change = std::make_unique<LoopChange>();
@@ -107,12 +99,14 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
 
   const CycleMotion present = presentPoses(history_, next->bodies);
   change->monitor = monitor_.prepare(next->snapshot->scene, &present);
-  change->tracker = std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_, watchedPairs(*next));
+  change->rigid_guard = std::make_unique<RigidGuard>(scene);
+  change->tracker =
+      std::make_unique<TfTracker>(history_, next->bodies, scene.pairs, tf_options_, change->rigid_guard->pairs());
   change->tracker->warmUp();
   // Also pairs of bodies that have changed continue: otherwise, if a body changes repeatedly, its pair with a body
   // whose frame lags behind would never be checked.
-  change->pairs_before = findPairs(trackedNames(*next), trackedNames(*world_));
-  change->reach_guard = std::make_unique<ReachGuard>(*next, described_);
+  change->pairs_before =
+      findPairs(trackedNames(scene, *change->rigid_guard), trackedNames(world_->scene(), *rigid_guard_));
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
   change->overlaps = overlapTexts(scene);
@@ -125,7 +119,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   motion.missing.resize(scene.bodies.size());
   motion.motion_error.reserve(scene.bodies.size());
   motion.spans.reserve(scene.pairs.size());
-  change->cycle.watched.reserve(next->unreachable.size());
+  change->cycle.watched.reserve(change->rigid_guard->pairs().size());
   change->cycle.gaps.reserve(scene.bodies.size());
   change->world = std::move(next);
   return change;
@@ -136,7 +130,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   monitor_.adopt(*change.monitor);
   change.tracker->continueFrom(*tracker_, difference.bodiesBefore(), change.pairs_before);
   tracker_.swap(change.tracker);
-  reach_guard_.swap(change.reach_guard);
+  rigid_guard_.swap(change.rigid_guard);
   contacts_.adopt(change.contacts);
   change.distances->take(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
@@ -172,7 +166,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
 void MonitorLoop::run(const CycleRequest& request) {
   try {
     result_ = &monitor_.run(cycle_.motion, request);
-    guardReach();
+    guardRigid();
   } catch (const std::exception& error) {
     monitor_.reset();
     cycle_.motion.missing.assign(scene().bodies.size(), error.what());
@@ -181,8 +175,8 @@ void MonitorLoop::run(const CycleRequest& request) {
   }
 }
 
-void MonitorLoop::guardReach() {
-  const std::vector<UncheckedPair> unchecked = reach_guard_->check(history_, cycle_);
+void MonitorLoop::guardRigid() {
+  const std::vector<UncheckedPair> unchecked = rigid_guard_->check(history_, cycle_);
   if (unchecked.empty()) return;
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);

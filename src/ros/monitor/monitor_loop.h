@@ -5,9 +5,11 @@
 #include "monitor/contact_tracker.h"
 #include "monitor/pair_distances.h"
 #include "robot_monitor/robot_pair_traits.h"
-#include "ros/monitor/reach_guard.h"
+#include "ros/monitor/rigid_guard.h"
 #include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
+#include "ros/world/checked_world.h"
+#include "ros/world/describe_scene.h"
 #include "sdf_ccd/UncheckedBody.h"
 
 namespace sdf_ccd {
@@ -32,7 +34,7 @@ struct LoopChange {
   std::unique_ptr<MonitorChange> monitor;
   std::unique_ptr<TfTracker> tracker;
   std::vector<int> pairs_before;  ///< per pair, checked or watched: see TfTracker::continueFrom()
-  std::unique_ptr<ReachGuard> reach_guard;
+  std::unique_ptr<RigidGuard> rigid_guard;
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
   std::vector<PairTraits> traits;  ///< per pair
@@ -117,7 +119,7 @@ class MonitorLoop {
 
  private:
   void run(const CycleRequest& request);
-  void guardReach();
+  void guardRigid();
   void trackContacts(const CycleRequest& request);
   OverlapTexts overlapTexts(const Scene& scene) const;
   void setOverlaps(OverlapTexts& texts);
@@ -127,10 +129,10 @@ class MonitorLoop {
   const DescribedScene described_;
   const TfTrackerOptions tf_options_;
   TfHistory history_;
+  std::unique_ptr<RigidGuard> rigid_guard_;
   std::unique_ptr<TfTracker> tracker_;
   Monitor monitor_;
   TrackedCycle cycle_;
-  std::unique_ptr<ReachGuard> reach_guard_;
   CycleRequest request_;
   CycleResult guarded_;  // result_ with the pairs that should not have been left out
   const CycleResult* result_ = nullptr;

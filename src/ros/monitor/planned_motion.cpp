@@ -9,7 +9,6 @@
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "ros/messages/conversions.h"
-#include "ros/monitor/planned_watch.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -174,7 +173,6 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
     if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.sampling);
-  addContradicted(planned, result);
   result.notes = notesOf(plan);
   const std::string carried = movesRoot(request, planned) ? carriedObjectsNote(planned) : "";
   if (!carried.empty()) result.notes += (result.notes.empty() ? "" : "; ") + carried;
@@ -209,20 +207,24 @@ PlannedMotion alongLinkPoses(const QueryMotion::Request& request, const PlannedS
     if (!named.insert(link).second) refuse("link " + link + " is named twice");
   }
   const std::vector<std::vector<Isometry3d>> X_WL = linkPoses(request);
-  std::vector<bool> is_moved(motion.X_WB.size(), false);
+  // Frames of tf are known up to different times: the other links are where the joints are, each at its own time.
+  const PlannedJoints rest = completePlan(planned.robot, {{0.0}, {RobotState()}}, now.joints, {});
+  const std::vector<Isometry3d> X_RL = planned.robot.forwardKinematics({}, rest.trajectory.states.front().poses);
   for (std::size_t body = 0; body < planned.scene.bodies.size(); ++body) {
     const Carrier& carrier = now.carriers[body];
     if (carrier.link < 0) continue;
     const auto link = std::find(request.links.begin(), request.links.end(), planned.robot.links()[carrier.link]);
-    if (link == request.links.end()) continue;
+    if (link == request.links.end()) {
+      motion.X_WB[body].assign(motion.times.size(), now.X_WR * X_RL[carrier.link] * carrier.X_LB);
+      std::string& missing = motion.missing[body];
+      if (missing.empty()) missing = now.root_missing.empty() ? rest.missing[carrier.link] : now.root_missing;
+      continue;
+    }
     const std::vector<Isometry3d>& poses = X_WL[link - request.links.begin()];
     for (std::size_t i = 0; i < poses.size(); ++i) motion.X_WB[body][i] = poses[i] * carrier.X_LB;
     motion.missing[body].clear();
-    is_moved[body] = true;
   }
-  PlannedMotion result = planThrough(std::move(motion), is_moved);
-  addContradicted(planned, is_moved, result);
-  return result;
+  return planThrough(std::move(motion));
 }
 
 }  // namespace

@@ -14,10 +14,8 @@ namespace sdf_ccd {
 /// The scene and the present poses that a planned motion starts from.
 struct PlannedScene {
   const Scene& scene;
-  const SceneDescription& description;
   const RobotModel& robot;
   std::string base_joint;  ///< the SRDF's virtual joint of the root link; may be empty
-  const std::vector<UnreachablePair>& unreachable;
   CurrentPoses now;
   MotionSampling sampling;
 };

@@ -226,7 +226,7 @@ PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWo
   posesAt(history_, world.bodies, ros::Time(), now.X_WB, now.missing);
   const std::string frame = withoutLeadingSlash(plan_frame);
   history_.lookup(frame.empty() ? history_.fixedFrame() : frame, ros::Time(), now.X_WM, now.plan_frame_missing);
-  return {world.scene(), world.description(), *robot_, base_joint_, world.unreachable, now, sampling_};
+  return {world.scene(), *robot_, base_joint_, now, sampling_};
 }
 
 PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
@@ -320,8 +320,6 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       try {
         PlannedMotion planned = toPlannedMotion(requestOf(request, first + i), now);
         notes.add(first + i, planned.notes);
-        for (const UncheckedPair& pair : uncheckedPairs(scene, planned))
-          notes.add(first + i, pairName(scene, pair) + ": " + pair.reason);
         return planned;
       } catch (const std::invalid_argument& error) {
         refuse("motion " + std::to_string(first + i) + ": " + error.what());
@@ -332,7 +330,11 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
       verdicts =
           sdf_ccd::checkMotions(world->snapshot->scene, options_, std::min(per_piece, count - first), motionOf, wanted);
     });
-    for (const MotionVerdict& verdict : verdicts) addVerdict(verdict, scene, response);
+    for (const MotionVerdict& verdict : verdicts) {
+      for (const UncheckedPair& pair : verdict.unchecked)
+        notes.add(response.verdicts.size(), pairName(scene, pair) + ": " + pair.reason);
+      addVerdict(verdict, scene, response);
+    }
     requireAtMost(limits_.pairs, response.pair_motions.size(), "listed pairs");
   };
   for (std::size_t first = 0; first < count; first += per_piece)

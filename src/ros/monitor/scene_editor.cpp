@@ -126,12 +126,9 @@ bool SceneEditor::makeNext(Draft& draft) {
     draft.scene.setTilesOf(*scene());
   }
   draft.arena.run([&] {
-    SceneDescription description = draft.scene.description(limits_);
-    std::vector<UnreachablePair> unreachable = draft.scene.unreachable(description);
-    const auto snapshot = editor_->next(std::move(description), *draft.parts);
+    const auto snapshot = editor_->next(draft.scene.description(limits_), *draft.parts);
     if (!snapshot) return;
-    const auto world = std::make_shared<CheckedWorld>(snapshot, std::move(unreachable), draft.scene.attachedSince(),
-                                                      draft.scene.declared());
+    const auto world = std::make_shared<CheckedWorld>(snapshot, draft.scene.attachedSince(), draft.scene.declared());
     world->map_age = draft.scene.mapAge();
     world->allowed_by_requests = draft.scene.allowedByRequests(*snapshot->description);
     draft.world = world;

@@ -1,4 +1,4 @@
-// The description of a changing scene: its bodies, and the pairs that it leaves out.
+// The description of a changing scene: its bodies, and the pairs that may touch.
 
 #include <algorithm>
 #include <iterator>
@@ -24,19 +24,14 @@ RuleIndex ChangingScene::ruleIndex() const {
   return {rules_, start_up_->permissions, settled_ ? settled_->matches : nullptr};
 }
 
-/// Why the pair of an object that has changed since start-up and another body, not both of the world, is left out;
-/// empty if it is checked.
-/// @param proved  receives whether they are rigidly joined: without a rule that allows them to touch, they are watched
-/// instead of checked.
-std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const {
+/// Why an object that has changed since start-up and another body, not both of the world, may touch; empty if they may
+/// not.
+std::string ChangingScene::whyMayTouch(const Object& object, const BodyDescription& other) const {
   const std::string& name = object.body.name;
   const auto known = objects_.find(other.name);
   const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
-  const auto isLink = [&](const std::string& link) { return start_up_->link_names.count(link) > 0; };
+  const auto isLink = [&](const std::string& link) { return start_up_->robot->find(link) >= 0; };
   const bool are_of_robot = isLink(object.link) && isLink(other_link);
-  const bool is_static = start_up_->root_frames.count(object.body.frame) > 0 || object.body.frame == other.frame;
-  proved = (are_of_robot && start_up_->robot->rigidlyJoined(object.link, other_link)) ||
-           (object.link.empty() && is_static && start_up_->root_frames.count(other.frame) > 0);
   const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(),
                        [&](const auto& pattern) { return matches(pattern, touched); });
@@ -50,14 +45,13 @@ std::string ChangingScene::whyLeftOut(const Object& object, const BodyDescriptio
            (known != objects_.end() && mayTouch(known->second.touch_links, name));
   };
   if (are_of_robot && may_touch() && !is_protected()) return kTouchLinks;
-  const std::string allowed = whyAllowed(start_up_->rules, name, other.name);
-  return allowed.empty() && proved ? kRigidlyJoined : allowed;
+  return whyAllowed(start_up_->rules, name, other.name);
 }
 
 /// Whether a body is neither a link nor an object that is as it was at start-up.
 bool ChangingScene::hasChanged(const std::string& body) const {
   const auto object = objects_.find(body);
-  return object == objects_.end() ? start_up_->link_names.count(body) == 0 : !object->second.is_unchanged;
+  return object == objects_.end() ? start_up_->robot->find(body) < 0 : !object->second.is_unchanged;
 }
 
 /// Whether a tile's voxels are those of an object that is still where it was: its pairs are checked instead. An object
@@ -98,17 +92,8 @@ std::set<NamePair> ChangingScene::keepAllowed(RuleIndex& rules, std::vector<Allo
   for (const AllowedPair& pair : start_up_->allowed) {
     if (hasChanged(pair.body_a) || hasChanged(pair.body_b)) continue;
     const RequestRule* rule = rules.last(pair.body_a, pair.body_b);
-    if (rule && !rule->is_allowed && !pair.proved) continue;
+    if (rule && !rule->is_allowed) continue;
     allowed.push_back(pair);
-    if (rule && pair.proved) {
-      const auto proof = start_up_->proofs.find(namePair(pair.body_a, pair.body_b));
-      std::string& reason = allowed.back().reason;
-      if (rule->is_allowed) {
-        reason = textOf(*rule);
-      } else if (proof != start_up_->proofs.end()) {
-        reason = proof->second;
-      }
-    }
     if (!rules_.empty()) kept.insert(namePair(pair.body_a, pair.body_b));
   }
   return kept;
@@ -123,13 +108,12 @@ void ChangingScene::leaveOut(const BodyDescription& body_a, const Object* a, con
   const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
   if (!is_new && rules_.empty() && (!is_tile || start_up_->rules.allowed.empty())) return;
   const RequestRule* rule = rules.last(body_a.name, body_b.name);
-  bool proved = false;
   std::string reason;
-  if (is_new) reason = b && !b->is_unchanged ? whyLeftOut(*b, body_a, proved) : whyLeftOut(*a, body_b, proved);
-  if (reason.empty() && !proved && is_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
-  if (rule) reason = rule->is_allowed ? textOf(*rule) : proved ? kRigidlyJoined : "";
+  if (is_new) reason = b && !b->is_unchanged ? whyMayTouch(*b, body_a) : whyMayTouch(*a, body_b);
+  if (reason.empty() && is_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
+  if (rule) reason = rule->is_allowed ? textOf(*rule) : "";
   if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) return;
-  allowed.push_back({body_a.name, body_b.name, reason, proved});
+  allowed.push_back({body_a.name, body_b.name, reason});
 }
 
 /// @param bodies   without tiles.
@@ -176,7 +160,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
     for (std::size_t i = 0; i < objects.size(); ++i)
       leaveOut(scene.bodies[i], objects[i], scene.bodies[k], nullptr, rules, settled_->left_out, scene.allowed);
   }
-  addProofs(*start_up_->robot, scene.bodies, scene.allowed, start_up_->tf_prefix);
+  setRigidRoots(*start_up_->robot, scene, start_up_->tf_prefix);
   return scene;
 }
 
@@ -212,28 +196,6 @@ std::string ChangingScene::weakened(const SceneDescription& description) const {
             counted(changed.size(), "object") + " of the parameters, for example " + changed.front();
   }
   return text;
-}
-
-std::vector<UnreachablePair> ChangingScene::unreachable(const SceneDescription& description) const {
-  std::map<std::string, int> indices;
-  for (std::size_t b = 0; b < description.bodies.size(); ++b) indices[description.bodies[b].name] = static_cast<int>(b);
-  const auto indexOf = [&](const std::string& name) {
-    const auto found = indices.find(name);
-    return hasChanged(name) || found == indices.end() ? -1 : found->second;
-  };
-  std::vector<UnreachablePair> pairs;
-  for (std::size_t p = 0; p < start_up_->unreachable.size(); ++p) {
-    UnreachablePair pair = start_up_->unreachable[p];
-    pair.body_a = indexOf(start_up_->unreachable_names[p].first);
-    pair.body_b = indexOf(start_up_->unreachable_names[p].second);
-    if (pair.body_a >= 0 && pair.body_b >= 0) pairs.push_back(std::move(pair));
-  }
-  std::vector<AllowedPair> joined;  // since then
-  for (const AllowedPair& pair : description.allowed)
-    if (pair.reason == kRigidlyJoined && (hasChanged(pair.body_a) || hasChanged(pair.body_b))) joined.push_back(pair);
-  const std::vector<UnreachablePair> later = unreachablePairs(description.bodies, joined);
-  pairs.insert(pairs.end(), later.begin(), later.end());
-  return pairs;
 }
 
 }  // namespace sdf_ccd

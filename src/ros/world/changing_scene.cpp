@@ -55,17 +55,6 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
   start_up->permissions = permissions;
   start_up->visual_only = first.visual_only;
   start_up->allowed = first.allowed;
-  start_up->unreachable = described.unreachable;
-  for (const UnreachablePair& pair : described.unreachable) {
-    start_up->unreachable_names.emplace_back(first.bodies[pair.body_a].name, first.bodies[pair.body_b].name);
-    const auto& [a, b] = start_up->unreachable_names.back();
-    start_up->proofs.emplace(namePair(a, b), pair.X_AB ? kRigidlyJoined : kOutOfReach);
-  }
-  for (const std::string& link : described.robot->links()) {
-    start_up->link_names.insert(link);
-    if (described.robot->rigidlyJoined(described.robot->root(), link))
-      start_up->root_frames.insert(described.tf_prefix + link);
-  }
   for (const BodyDescription& body : first.bodies) {
     if (!body.is_world) {
       start_up->links.push_back(body);
@@ -188,7 +177,7 @@ BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& so
 /// Throws unless an object may have this name.
 void ChangingScene::requireUsableName(const std::string& name) const {
   if (const std::string why = whyNoName(name); !why.empty()) refuse(why);
-  if (start_up_->link_names.count(name) > 0) refuse(name + " is a link of the robot");
+  if (start_up_->robot->find(name) >= 0) refuse(name + " is a link of the robot");
   requireNoTile(name, start_up_->tiles_begin);
 }
 
@@ -218,7 +207,7 @@ void ChangingScene::erase(const SceneChange& change) {
 }
 
 void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
-  if (start_up_->link_names.count(change.link) == 0) refuse("the robot has no link " + shownText(change.link));
+  if (start_up_->robot->find(change.link) < 0) refuse("the robot has no link " + shownText(change.link));
   const std::string link_frame = start_up_->tf_prefix + change.link;
   SceneChange made = change;
   if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
@@ -243,6 +232,7 @@ void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
   object.body.is_world = false;
+  object.body.is_attached = true;
   object.link = change.link;
   object.touch_links = change.touch_links;
   object.is_unchanged = false;
@@ -261,6 +251,7 @@ void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
   }
   object.body.frame = frame;
   object.body.is_world = true;
+  object.body.is_attached = false;
   object.link.clear();
   object.attached_since = {};
   object.touch_links.clear();

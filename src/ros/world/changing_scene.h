@@ -63,9 +63,6 @@ class ChangingScene {
   /// The complete scene, to be built. @throws std::length_error if it exceeds the limits.
   SceneDescription description(const RequestLimits& limits) const;
 
-  /// The pairs that are left out because of the URDF, with their bodies' indices in description().
-  std::vector<UnreachablePair> unreachable(const SceneDescription& description) const;
-
   std::vector<std::string> objects() const;
 
   /// Number of the description's pairs that requests allow to touch, by rules or by touch_links.
@@ -126,7 +123,7 @@ class ChangingScene {
                                         const std::vector<const Object*>& objects) const;
   void leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b, const Object* b,
                 RuleIndex& rules, const std::set<NamePair>& left_out, std::vector<AllowedPair>& allowed) const;
-  std::string whyLeftOut(const Object& object, const BodyDescription& other, bool& proved) const;
+  std::string whyMayTouch(const Object& object, const BodyDescription& other) const;
   bool hasChanged(const std::string& body) const;
   bool isJudgedAsObject(const BodyDescription& tile) const;
   bool isNoGrasp(const AllowedPair& pair) const;

@@ -12,13 +12,8 @@ struct ChangingScene::StartUp {
   RequestPermissions permissions;
   std::vector<std::string> objects;  // names
   std::vector<BodyDescription> links;
-  std::set<std::string> link_names;  // of the robot, bodies or not
   std::vector<std::string> visual_only;
   std::vector<AllowedPair> allowed;
-  std::vector<UnreachablePair> unreachable;
-  std::vector<NamePair> unreachable_names;
-  std::map<NamePair, std::string> proofs;  // of these: why they are left out if no rule is about them
-  std::set<std::string> root_frames;       // rigidly joined to the root link
 };
 
 }  // namespace sdf_ccd

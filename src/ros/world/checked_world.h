@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "monitor/map/voxel_mask.h"
-#include "robot/unreachable_pairs.h"
 #include "ros/tf/tf_tracker.h"
 #include "ros/world/map_age.h"
 #include "sdf_ccd/monitor/world.h"
@@ -17,7 +16,6 @@ namespace sdf_ccd {
 /// A version of the world and the data about it that the core does not hold; immutable, shared by cycles and queries.
 struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
-  std::vector<UnreachablePair> unreachable;         ///< left out as long as tf agrees with the URDF
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::map<std::string, std::uint64_t> declared;    ///< ObjectMask::declared per object; 0 if it is not listed
   std::vector<TrackedBody> bodies;
@@ -25,12 +23,10 @@ struct CheckedWorld {
   std::size_t allowed_by_requests = 0;  ///< pairs that requests allow to touch
   std::shared_ptr<MapAge> map_age;      ///< of its live map; null if it has none, or one that never gets too old
 
-  /// @param left_out  also pairs that rules of the user allow to touch.
-  CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, std::vector<UnreachablePair> left_out,
-               std::map<std::string, ros::Time> of_attached = {},
-               std::map<std::string, std::uint64_t> of_declared = {})
+  explicit CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot,
+                        std::map<std::string, ros::Time> of_attached = {},
+                        std::map<std::string, std::uint64_t> of_declared = {})
       : snapshot(std::move(of_snapshot)),
-        unreachable(withoutAllowed(std::move(left_out), *snapshot->description)),
         attached_since(std::move(of_attached)),
         declared(std::move(of_declared)),
         bodies(trackedBodies(*snapshot->scene)),
@@ -43,13 +39,12 @@ struct CheckedWorld {
 
 /// The world of a scene that nothing has changed yet: version 1.
 inline std::shared_ptr<const CheckedWorld> firstWorld(std::shared_ptr<const Scene> scene,
-                                                      const SceneDescription& description,
-                                                      const std::vector<UnreachablePair>& unreachable) {
+                                                      const SceneDescription& description) {
   auto snapshot = std::make_shared<WorldSnapshot>();
   snapshot->version = 1;
   snapshot->scene = std::move(scene);
   snapshot->description = std::make_shared<const SceneDescription>(description);
-  return std::make_shared<const CheckedWorld>(std::move(snapshot), unreachable);
+  return std::make_shared<const CheckedWorld>(std::move(snapshot));
 }
 
 }  // namespace sdf_ccd

@@ -28,17 +28,6 @@ void requireOwnFrames(const RobotFrames& frames) {
   }
 }
 
-/// With the reasons that they have without the SRDF.
-std::vector<AllowedPair> provedPairs(const SceneDescription& scene) {
-  std::vector<AllowedPair> proved;
-  for (const AllowedPair& pair : scene.allowed) {
-    if (!pair.proved) continue;
-    proved.push_back(pair);
-    if (!isProof(pair.reason)) proved.back().reason = kRigidlyJoined;
-  }
-  return proved;
-}
-
 }  // namespace
 
 ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
@@ -99,28 +88,21 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   }
   if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
   for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);
-  disableUnreachable(*robot, described.scene);
   if (!parameters.live_map.topic.empty()) {
     const std::string why = "no map has been received on " + parameters.live_map.topic + " yet";
     described.scene.bodies.push_back(awaitedTile(frameOf(""), why));
     described.scene.has_live_map = true;
   }
-  const std::vector<AllowedPair> proved = provedPairs(described.scene);
   applyRules(parameters.pairs, described.scene, described.warnings);
   std::vector<PairRule> limited;
   for (const PairLimit& limit : parameters.proximity.pairs) limited.push_back(limit.bodies);
   warnOfUnknown("pairs", limited, described.scene, described.warnings);
-  for (AllowedPair& pair : described.scene.allowed) {
-    // In spite of the SRDF: watched again, like the others.
-    if (pair.proved && !isProof(pair.reason) && matchesAny(parameters.pairs.checked, pair.body_a, pair.body_b))
-      pair.reason = kRigidlyJoined;
-  }
   described.overlap_rule = {parameters.overlapping_pairs, parameters.pairs.checked};
   for (const auto& [a, b] : srdf.enabled) described.overlap_rule.kept.push_back({a, b});
-  described.unreachable = unreachablePairs(described.scene.bodies, proved);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }
+  setRigidRoots(*robot, described.scene, prefix);
   return described;
 }
 

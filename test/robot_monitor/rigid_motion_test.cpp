@@ -1,15 +1,13 @@
-// Pairs that a scene leaves out because the robot's joints cannot bring them together, along motions in which something
-// else does.
+// Pairs that a scene leaves out because their bodies do not move relative to each other, along motions that move them.
 #include <gtest/gtest.h>
 
 #include "robot_monitor/check_motion_case.h"
 
-namespace sdf_ccd::left_out_motion_test {
+namespace sdf_ccd::rigid_motion_test {
 
 using namespace test;
 
-/// A carriage on a rail, which its limits keep a metre away from the rail's post. Its arm turns beside a hand, to which
-/// it is rigidly joined.
+/// A carriage on a rail, which its limits keep a metre away from the rail's post. A hand is rigidly joined to it.
 constexpr const char* kRail = R"(<robot name='r'>
   <link name='base'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
   <link name='carriage'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>
@@ -19,9 +17,9 @@ constexpr const char* kRail = R"(<robot name='r'>
   <joint name='hold' type='fixed'><parent link='carriage'/><child link='hand'/><origin xyz='0 0 1'/></joint>
 </robot>)";
 
-class LeftOutMotion : public ::testing::Test {
+class RigidMotion : public ::testing::Test {
  protected:
-  LeftOutMotion() {
+  RigidMotion() {
     std::vector<std::string> warnings;
     description_ = describeRobot(robot_, {}, {}, {true}, warnings);
     // Between bodies that may meet, so that there is something to check.
@@ -62,70 +60,50 @@ std::vector<std::string> uncheckedOf(const Scene& scene, const CycleResult& resu
   return names;
 }
 
-TEST_F(LeftOutMotion, BeyondTheLimitsIsNotChecked) {
+TEST_F(RigidMotion, BeyondTheLimitsIsCheckedLikeAllOthers) {
   const auto scene = this->scene();
-  ASSERT_EQ(scene->pairs.size(), 2u) << planTable(*scene);  // of the ball with what moves
+  ASSERT_EQ(scene->pairs.size(), 4u) << planTable(*scene);  // of base and ball with what moves
   EXPECT_EQ(checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_))).verdict,
             Verdict::kClear);
-  const CycleResult through = checkMotion(scene, {}, planAlong(robot_, plan(0.0, -6.0), bodiesOf(*scene, robot_)));
-  EXPECT_EQ(through.verdict, Verdict::kNotChecked) << "the carriage goes through the base";
-  EXPECT_EQ(
-      uncheckedOf(*scene, through),
-      (std::vector<std::string>{"base - carriage: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6",
-                                "base - hand: out of reach only while joint slide is in [-1.1, 0.1]; it is at -6"}));
+  EXPECT_EQ(checkMotion(scene, {}, planAlong(robot_, plan(0.0, -6.0), bodiesOf(*scene, robot_))).verdict,
+            Verdict::kContact)
+      << "the carriage goes through the base";
 }
 
-TEST_F(LeftOutMotion, BeyondTheLimitsIsNotCheckedAmongManyMotions) {
-  const auto scene = this->scene();
-  MotionsRequest listed;
-  listed.list_pairs = true;
-  for (const MotionsRequest& request : {MotionsRequest(), listed}) {
-    const std::vector<MotionVerdict> verdicts = checkMotions(
-        scene, {}, 2,
-        [&](std::size_t i, double) {
-          return planAlong(robot_, plan(0.0, i == 0 ? -1.0 : -6.0), bodiesOf(*scene, robot_));
-        },
-        request);
-    EXPECT_EQ(verdicts[0].verdict, Verdict::kClear);
-    EXPECT_EQ(verdicts[1].verdict, Verdict::kNotChecked);
-    EXPECT_EQ(verdicts[1].pairs.size(), request.list_pairs ? 2u : 0u);
-  }
-}
-
-TEST_F(LeftOutMotion, WhatIsNotCarriedAsTheUrdfSaysIsNotChecked) {
+TEST_F(RigidMotion, WhatIsNotCarriedAsTheUrdfSaysIsNotChecked) {
   const auto scene = this->scene();
   PlannedBodies bodies = bodiesOf(*scene, robot_);
   bodies.bodies[2].link = -1;  // the hand stays behind
-  const CycleResult result = checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodies));
+  bodies.bodies[2].X_LB = Eigen::Translation3d(3.0, 0.0, 1.0);
+  const auto motion = [&](std::size_t i, double) { return planAlong(robot_, plan(0.0, i == 0 ? 0.0 : -1.0), bodies); };
+  const CycleResult result = checkMotion(scene, {}, motion(1, 0.0));
   EXPECT_EQ(result.verdict, Verdict::kNotChecked);
-  EXPECT_EQ(uncheckedOf(*scene, result).size(), 2u);
+  EXPECT_EQ(uncheckedOf(*scene, result),
+            std::vector<std::string>{"carriage - hand: rigidly joined in the scene, but not certainly in this motion"});
+  MotionsRequest listed;
+  listed.list_pairs = true;
+  for (const MotionsRequest& request : {MotionsRequest(), listed}) {
+    const std::vector<MotionVerdict> verdicts = checkMotions(scene, {}, 2, motion, request);
+    EXPECT_EQ(verdicts[0].verdict, Verdict::kClear);
+    EXPECT_TRUE(verdicts[0].unchecked.empty());
+    EXPECT_EQ(verdicts[1].verdict, Verdict::kNotChecked);
+    EXPECT_EQ(verdicts[1].pair, -1);
+    EXPECT_EQ(verdicts[1].time, 0.0);
+    EXPECT_EQ(verdicts[1].unchecked.size(), 1u);
+    EXPECT_EQ(verdicts[1].pairs.size(), request.list_pairs ? 1u : 0u);
+  }
 }
 
-TEST_F(LeftOutMotion, AMotionThatTellsNothingOfThemIsNotChecked) {
-  const auto scene = this->scene();
-  PlannedMotion motion = planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_));
-  motion.whyReachable = nullptr;
-  EXPECT_EQ(checkMotion(scene, {}, motion).verdict, Verdict::kNotChecked);
-}
-
-TEST_F(LeftOutMotion, APairWithoutItsProofIsNotChecked) {
-  for (AllowedPair& pair : description_.allowed) pair.proof.reset();
-  const auto scene = this->scene();
-  EXPECT_EQ(checkMotion(scene, {}, planAlong(robot_, plan(0.0, -1.0), bodiesOf(*scene, robot_))).verdict,
-            Verdict::kNotChecked);
-}
-
-TEST_F(LeftOutMotion, PosesThatContradictTheUrdfAreNotChecked) {
+TEST_F(RigidMotion, PosesThatContradictTheSceneAreNotChecked) {
   BodyDescription tool = description_.bodies.back();
   tool.name = "tool";
   tool.frame = "hand";
   tool.X_frame_B = Eigen::Translation3d(0.0, 0.0, 0.3);
   tool.is_world = false;
   description_.bodies.push_back(tool);
-  std::swap(description_.allowed[0].body_a, description_.allowed[0].body_b);  // whatever the order of the names
   const auto scene = this->scene();
+  const auto at = [](const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); };
   const auto verdict = [&](const Vector3d& carriage, const Vector3d& hand, const Vector3d& tool) {
-    const auto at = [](const Vector3d& p) { return Isometry3d(Eigen::Translation3d(p)); };
     CycleMotion motion;
     motion.times = {0.0, 1.0};
     motion.X_WB = {{at({0, 0, 0})},
@@ -133,20 +111,32 @@ TEST_F(LeftOutMotion, PosesThatContradictTheUrdfAreNotChecked) {
                    {at({3, 0, 1}), at(hand)},
                    {at({0, 5, 0})},
                    {at({3, 0, 1.3}), at(tool)}};
-    return checkMotion(scene, {}, planThrough(motion, {false, true, true, false, true})).verdict;
+    return checkMotion(scene, {}, planThrough(motion)).verdict;
   };
   EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 1}, {2, 0, 1.3}), Verdict::kClear);
-  EXPECT_EQ(verdict({-3, 0, 0}, {-3, 0, 1}, {-3, 0, 1.3}), Verdict::kNotChecked) << "through the base";
+  EXPECT_EQ(verdict({-3, 0, 0}, {-3, 0, 1}, {-3, 0, 1.3}), Verdict::kContact) << "through the base";
   EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 0.1}, {2, 0, 0.4}), Verdict::kNotChecked) << "the hand into the carriage";
   EXPECT_EQ(verdict({2, 0, 0}, {2, 0, 1}, {2, 0, 1.1}), Verdict::kNotChecked) << "the tool, in the frame of the hand";
 }
 
-TEST_F(LeftOutMotion, ABodyMovesOnlyIfItIsSaidTo) {
-  CycleMotion motion;
-  motion.times = {0.0, 1.0};
-  motion.X_WB = {{Isometry3d::Identity()}, {Isometry3d::Identity(), Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}};
-  EXPECT_NO_THROW(planThrough(motion, {false, true}));
-  EXPECT_THROW(planThrough(motion, {true, false}), std::invalid_argument);
+TEST_F(RigidMotion, ThatKnowsOneOfTwoBodiesIsNotChecked) {
+  for (AllowedPair pair : {AllowedPair{"base", "hand", ""}, AllowedPair{"ball", "hand", ""}}) {
+    pair.reason = "so that nothing else needs the hand";
+    description_.allowed.push_back(pair);
+  }
+  const auto scene = this->scene();
+  const auto verdict = [&](const std::string& carriage, const std::string& hand) {
+    CycleMotion motion;
+    motion.times = {0.0, 1.0};
+    motion.X_WB.assign(4, {Isometry3d::Identity()});
+    motion.X_WB[1][0].translation().y() = 3.0;
+    motion.X_WB[3][0].translation().y() = 5.0;
+    motion.X_WB[2][0] = motion.X_WB[1][0] * Eigen::Translation3d(0.0, 0.0, 1.0);
+    motion.missing = {"", carriage, hand, ""};
+    return checkMotion(scene, {}, planThrough(motion)).verdict;
+  };
+  EXPECT_EQ(verdict("", ""), Verdict::kClear);
+  EXPECT_EQ(verdict("", "gone"), Verdict::kNotChecked);
 }
 
-}  // namespace sdf_ccd::left_out_motion_test
+}  // namespace sdf_ccd::rigid_motion_test

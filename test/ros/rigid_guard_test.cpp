@@ -1,4 +1,4 @@
-// The assumptions behind pairs that are left out because the URDF's joints can never bring them near each other.
+// The assumption behind pairs that are left out because the URDF joins them rigidly.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
 
-namespace sdf_ccd::reach_guard_test {
+namespace sdf_ccd::rigid_guard_test {
 
 using test::message;
 using test::stampedTransform;
@@ -41,56 +41,6 @@ std::unique_ptr<MonitorLoop> loopOf(DescribedScene described, const MonitorParam
   return std::make_unique<MonitorLoop>(buildDescribed(described, plan, parameters.scene, {}), described, parameters);
 }
 
-/// Two wheels 2 m apart, and a ball in front of a wall, so that there is a pair to check.
-class ReachGuardTest : public ::testing::Test {
- protected:
-  ReachGuardTest() {
-    const auto wheel = [](const std::string& name, const std::string& x) {
-      return "<link name='" + name + "'>" + kBall + "</link><joint name='j_" + name +
-             "' type='continuous'><parent link='base'/><child link='" + name + "'/><origin xyz='" + x +
-             " 0 0'/><axis xyz='0 1 0'/></joint>";
-    };
-    MonitorParameters parameters =
-        parametersOf("<robot name='cart'><link name='base'/>" + wheel("left", "-1") + wheel("right", "1") + "</robot>");
-    parameters.world.push_back(box("wall", "elsewhere"));
-    described_ = describe(parameters);
-    loop_ = loopOf(described_, parameters);
-  }
-
-  ContactArray cycleWithRightAt(double x) {
-    loop_->history().add(message({stampedTransform("base", "elsewhere", time_, 50.0)}), true);
-    TfTracker::Step step = TfTracker::Step::kWaiting;
-    for (int i = 0; i < 5 && step != TfTracker::Step::kCycle; ++i) {  // the first step only begins
-      loop_->history().add(message({stampedTransform("base", "left", time_, -1.0)}), false);
-      loop_->history().add(message({stampedTransform("base", "right", time_, x)}), false);
-      step = loop_->step(ros::Time(time_), {});
-      time_ += 0.05;
-    }
-    EXPECT_EQ(step, TfTracker::Step::kCycle);
-    return toContactArray(*loop_);
-  }
-
-  DescribedScene described_;
-  std::unique_ptr<MonitorLoop> loop_;
-  double time_ = 100.0;
-};
-
-TEST_F(ReachGuardTest, WhereTheUrdfHasThemTheyAreClear) {
-  ASSERT_EQ(described_.unreachable.size(), 1u);
-  EXPECT_EQ(cycleWithRightAt(1.0).verdict, ContactArray::CLEAR);
-}
-
-/// tf is that of another robot than the URDF: the wheels' poses are not reliable, and they may touch.
-TEST_F(ReachGuardTest, WhereTfHasThemNearEachOtherTheyAreNotChecked) {
-  const ContactArray said = cycleWithRightAt(-0.95);
-  EXPECT_EQ(said.verdict, ContactArray::NOT_CHECKED);
-  ASSERT_EQ(said.pairs.size(), 1u);
-  EXPECT_EQ(said.pairs[0].body_a, "left");
-  EXPECT_EQ(said.pairs[0].body_b, "right");
-  EXPECT_NE(said.pairs[0].reason.find("out of reach according to the URDF, but close to each other in tf"),
-            std::string::npos);
-}
-
 /// In the URDF the base stands in the world for good. An arm turns on it; its tool is checked against a wall. A table
 /// stands in the world, and a floor, above which the arm turns.
 class FixedBaseTest : public ::testing::Test {
@@ -116,7 +66,7 @@ class FixedBaseTest : public ::testing::Test {
         true);
   }
 
-  /// What is not checked, as "arm - table: reason", if tf has the base at x.
+  /// What is not checked, as "base - table: reason", if tf has the base at x. Contacts are kept in contacts_.
   std::set<std::string> uncheckedWithBaseAt(double x) {
     TfTracker::Step step = TfTracker::Step::kWaiting;
     for (int i = 0; i < 5 && step != TfTracker::Step::kCycle; ++i) {
@@ -128,45 +78,47 @@ class FixedBaseTest : public ::testing::Test {
       time_ += 0.05;
     }
     std::set<std::string> unchecked;
-    for (const PairContact& pair : toContactArray(*loop_).pairs)
-      unchecked.insert(pair.body_a + " - " + pair.body_b + ": " + pair.reason);
+    contacts_.clear();
+    for (const PairContact& pair : toContactArray(*loop_).pairs) {
+      const std::string name = pair.body_a + " - " + pair.body_b;
+      if (pair.verdict == PairContact::NOT_CHECKED) unchecked.insert(name + ": " + pair.reason);
+      if (pair.verdict == PairContact::CONTACT) contacts_.insert(name);
+    }
     return unchecked;
   }
 
+  std::set<std::string> contacts_;
   DescribedScene described_;
   std::unique_ptr<MonitorLoop> loop_;
   double time_ = 100.0;
 };
 
 TEST_F(FixedBaseTest, WhatTheUrdfFixesAndTfDoesNotMoveIsClear) {
-  ASSERT_EQ(loop_->scene().pairs.size(), 1u) << "tool and wall";
+  ASSERT_EQ(loop_->scene().pairs.size(), 6u) << "tool and wall, base and tool, arm and tool with table and floor";
   EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>());
   EXPECT_EQ(uncheckedWithBaseAt(5e-4), std::set<std::string>()) << "calibrated";
 }
 
-/// tf takes the base to the table. The floor is out of reach as before.
+/// tf takes the base to the table.
 TEST_F(FixedBaseTest, WhatTfMovesIsNotChecked) {
   uncheckedWithBaseAt(0.0);
-  const std::string out =
-      ": out of reach according to the URDF, but close to each other in tf: do the URDF and tf belong to the same "
-      "robot? If these may touch, name them in allowed_pairs";
   const std::string moved =
       ": rigidly joined in the URDF, but not in tf: do the URDF and tf belong to the same robot? If these may touch, "
       "name them in allowed_pairs";
-  EXPECT_EQ(uncheckedWithBaseAt(2.6),
-            (std::set<std::string>{"base - table" + moved, "base - floor" + moved, "tool - table" + out}));
+  EXPECT_EQ(uncheckedWithBaseAt(2.6), (std::set<std::string>{"base - table" + moved, "base - floor" + moved}));
+  EXPECT_EQ(contacts_, std::set<std::string>{"tool - table"});
   uncheckedWithBaseAt(0.0);
   EXPECT_EQ(uncheckedWithBaseAt(0.0), std::set<std::string>()) << "back again";
 }
 
 /// From one transform to the next, tf takes the arm through the table.
-TEST_F(FixedBaseTest, WhatPassesBetweenTwoTransformsIsNotChecked) {
+TEST_F(FixedBaseTest, WhatPassesBetweenTwoTransformsIsAContact) {
   prepare({{"base", "*"}});
   uncheckedWithBaseAt(0.0);
-  const std::set<std::string> unchecked = uncheckedWithBaseAt(6.0);
-  ASSERT_EQ(unchecked.size(), 2u) << "arm and tool";
-  EXPECT_EQ(unchecked.begin()->find("arm - table: out of reach according to the URDF"), 0u) << *unchecked.begin();
-  EXPECT_EQ(uncheckedWithBaseAt(12.0), std::set<std::string>()) << "away from it";
+  EXPECT_EQ(uncheckedWithBaseAt(6.0), std::set<std::string>());
+  EXPECT_EQ(contacts_, (std::set<std::string>{"arm - table", "tool - table"}));
+  EXPECT_EQ(uncheckedWithBaseAt(12.0), std::set<std::string>());
+  EXPECT_EQ(contacts_, std::set<std::string>()) << "away from it";
 }
 
 TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
@@ -175,9 +127,8 @@ TEST_F(FixedBaseTest, WhatIsAllowedToTouchIsNotWatched) {
   EXPECT_EQ(uncheckedWithBaseAt(2.6), std::set<std::string>());
 }
 
-/// Three links are fixed on one that turns, out of the base's reach; tf moves the middle one, which may touch the
-/// first.
-TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
+/// Three links are fixed on one that turns; tf moves the middle one, which may touch the first.
+TEST(RigidGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
   std::string urdf = "<robot name='r'><link name='base'>" + kBall +
                      "</link><link name='turn'/><joint name='turns' type='continuous'><parent link='base'/><child "
                      "link='turn'/><origin xyz='9 0 0'/><axis xyz='0 0 1'/></joint>";
@@ -209,7 +160,7 @@ TEST(ReachGuard, WatchesAGroupAlsoWhereSomeOfItMayTouch) {
 
 /// A mobile robot with a load in its base's frame, whose arm's transforms come later than is waited for: the poses of
 /// the cycle are then not all those of tf.
-TEST(ReachGuard, LateFramesOfOthersMoveNothing) {
+TEST(RigidGuard, LateFramesOfOthersMoveNothing) {
   MonitorParameters parameters =
       parametersOf("<robot name='r'><link name='base'>" + kBall + "</link><link name='arm'>" + kBall +
                    "</link><joint name='turns' type='continuous'><parent link='base'/><child link='arm'/><origin "
@@ -290,4 +241,4 @@ TEST(LateTool, IsNotCheckedIfItIsTooLate) {
   EXPECT_EQ(LateTool().uncheckedWithLag(30, 0.0), std::set<std::string>{"tool is late"});
 }
 
-}  // namespace sdf_ccd::reach_guard_test
+}  // namespace sdf_ccd::rigid_guard_test
