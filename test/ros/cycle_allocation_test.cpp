@@ -76,7 +76,8 @@ class CycleAllocationTest : public ::testing::Test {
   void send(const ros::Time& stamp) {
     const double swing = std::sin(2.0 * M_PI * std::fmod(stamp.toSec(), 1.0));
     tf_.publish(test::message(
-        {stampedTransform("base", "palm", stamp.toSec(), 0.0, 0.01 * swing),
+        {stampedTransform("base", "palm", stamp, Quaterniond(Eigen::AngleAxisd(0.01 * swing, Vector3d::UnitZ())),
+                          Vector3d::Zero()),
          stampedTransform("palm", "finger", stamp, Quaterniond::Identity(), Vector3d(0.1, 0.01 * swing, 0.0))}));
   }
 
