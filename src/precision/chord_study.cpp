@@ -16,8 +16,8 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr int kCells = 128;
-constexpr double kSpacing = 0.015;  // of the shell's points [box sides]
+constexpr int kChordCells = 128;
+constexpr double kChordSpacing = 0.015;  // of the shell's points [box sides]
 
 /// Time of impact in [0, 1] of the shell's points, on their arcs, with the mesh; 2 if there is none. By conservative
 /// advancement: a point's speed is constant, as the twist is, so no step moves it farther than its distance to the
@@ -109,10 +109,10 @@ StudyResult chordStudy(const StudyInput& input) {
                      "motion of a body",
                      {}};
   FieldOptions options;
-  options.cells = kCells;
+  options.cells = kChordCells;
   const DistanceField field = buildField(input.mesh, options, [&](double share) { input.progress(0.3 * share); });
   const double side = field.surfaceBox().sizes().maxCoeff();
-  const TreeShell shell(input.mesh, kSpacing * side);
+  const TreeShell shell(input.mesh, kChordSpacing * side);
   const BoundingBall ball = ballOf(shell.shell, field.surfaceBox().center());
   const ExactSurface mesh(input.mesh);
   const std::vector<ExactImpact> exact = motions(mesh, field, shell, ball, std::max(10, input.queries / 40));

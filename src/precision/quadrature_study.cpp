@@ -11,8 +11,8 @@
 namespace sdf_ccd::precision {
 namespace {
 
-constexpr int kCells = 64;
-constexpr double kSpacing = 0.05;  // of the shell's points [box sides]
+constexpr int kQuadratureCells = 64;
+constexpr double kQuadratureSpacing = 0.05;  // of the shell's points [box sides]
 constexpr int kReferencePoints = 10'000;
 
 struct Rule {
@@ -37,10 +37,10 @@ StudyResult quadratureStudy(const StudyInput& input) {
                      {}};
   const double side = boundingBox(input.mesh).sizes().maxCoeff();
   FieldOptions field_options;
-  field_options.cells = kCells;
+  field_options.cells = kQuadratureCells;
   field_options.band = 0.1 * side;
   const DistanceField field = buildField(input.mesh, field_options, [&](double share) { input.progress(0.2 * share); });
-  const TreeShell shell(input.mesh, kSpacing * side);
+  const TreeShell shell(input.mesh, kQuadratureSpacing * side);
   const std::vector<Motion> motions =
       presses(field, shell, std::max(10, input.queries / 40), 0.0, 0.02 * side, 0.05 * side);
   std::vector<ContactQuery> queries;

@@ -19,7 +19,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-struct Arguments {
+struct BuildArguments {
   std::string urdf;
   std::string srdf;
   std::string mesh;
@@ -33,7 +33,7 @@ struct Arguments {
 };
 
 #ifdef SDF_CCD_WITH_ROS
-void prepareWithParameters(const Arguments& arguments) {
+void prepareWithParameters(const BuildArguments& arguments) {
   if (arguments.urdf.empty()) throw std::runtime_error("--config needs --urdf");
   if (arguments.spacing) throw std::runtime_error("--spacing: with --config, shell/spacing of that file counts");
   arguments.resolution.requireNone("with --config, the resolution comes from that file");
@@ -41,7 +41,7 @@ void prepareWithParameters(const Arguments& arguments) {
 }
 #endif
 
-void buildFile(const Arguments& arguments) {
+void buildFile(const BuildArguments& arguments) {
   MeshBuild build;
   const bool is_mesh = !arguments.mesh.empty();
   const std::string& file = is_mesh ? arguments.mesh : arguments.octomap;
@@ -56,7 +56,7 @@ void buildFile(const Arguments& arguments) {
   arguments.time.limit([&] { buildMesh(std::move(build), arguments.out); });
 }
 
-void run(const Arguments& arguments) {
+void run(const BuildArguments& arguments) {
   if (!arguments.srdf.empty() && arguments.urdf.empty()) throw std::runtime_error("--srdf needs --urdf");
   if (arguments.spacing && !(*arguments.spacing > 0.0)) throw std::runtime_error("--spacing must be positive");
   arguments.resolution.fieldOptions();  // rejects bad values before anything is read
@@ -73,7 +73,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addBuildCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BuildArguments>();
   CLI::App* command = app.add_subcommand("build", "Make fields and shells, and report on the meshes");
   command->footer(
       "For a robot, builds what the monitor builds at start-up: load it with the parameter cache_directory: DIR, or a "

@@ -23,7 +23,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-struct Arguments {
+struct InfoArguments {
   std::string file;
   std::string slice;
   std::string out;
@@ -74,7 +74,7 @@ void printQuality(const MeshQuality& quality) {
 }
 
 /// Prints a summary of the file; returns its field if a slice is requested.
-std::optional<DistanceField> inspect(const Arguments& arguments) {
+std::optional<DistanceField> inspect(const InfoArguments& arguments) {
   const std::string& file = arguments.file;
   const bool wants_field = !arguments.slice.empty();
   if (!wants_field) arguments.resolution.requireNone("a field is built only with --slice");
@@ -110,7 +110,7 @@ std::optional<DistanceField> inspect(const Arguments& arguments) {
                          arguments.resolution.thinWalls());
 }
 
-void run(const Arguments& arguments) {
+void run(const InfoArguments& arguments) {
   if (arguments.slice.empty() != arguments.out.empty()) throw std::runtime_error("--slice and --out go together");
   if (arguments.slice.empty()) {
     arguments.time.limit([&] { inspect(arguments); });
@@ -127,7 +127,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addInfoCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<InfoArguments>();
   CLI::App* command = app.add_subcommand("info", "What a field, shell, mesh or OctoMap file holds");
   command->add_option("file", arguments->file, "File to look into")->required();
   command->add_option("--slice", arguments->slice,

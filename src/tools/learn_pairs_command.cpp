@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kUnknown = 10;  // printed pairs that are not learned: their reasons are often the same
 
-struct Arguments {
+struct LearnPairsArguments {
   std::string urdf, srdf, out, bag, topic;
   long states = 10'000;
   long seed = 1;
@@ -85,7 +85,7 @@ void printReport(const LearnedPairs& pairs) {
   std::cout << std::flush;
 }
 
-LearnOptions learnOptions(const Arguments& arguments, const RobotModel& robot) {
+LearnOptions learnOptions(const LearnPairsArguments& arguments, const RobotModel& robot) {
   LearnOptions options;
   options.states = static_cast<std::size_t>(arguments.states);
   options.seed = static_cast<std::uint64_t>(arguments.seed);
@@ -101,7 +101,7 @@ LearnOptions learnOptions(const Arguments& arguments, const RobotModel& robot) {
   return options;
 }
 
-void run(const Arguments& arguments) {
+void run(const LearnPairsArguments& arguments) {
   if (arguments.states < 0) throw std::runtime_error("--states must not be negative");
   if (arguments.states == 0 && arguments.bag.empty()) throw std::runtime_error("--states 0 needs --bag");
   if (arguments.seed < 0) throw std::runtime_error("--seed must not be negative");
@@ -138,7 +138,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addLearnPairsCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<LearnPairsArguments>();
   CLI::App* command = app.add_subcommand("learn-pairs", "Write an SRDF of the pairs of links that need no check");
   command->footer(
       "Adjacent: joined by one joint. Always: touch in all of the states, deeper than the error bound, or as "

@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kBlock = 4096;
 
-struct Arguments {
+struct QueryArguments {
   std::string field;
   std::string mesh;
   std::string segments;
@@ -43,7 +43,7 @@ struct Arguments {
   bool impact = false;
 };
 
-DistanceField fieldOf(const Arguments& arguments) {
+DistanceField fieldOf(const QueryArguments& arguments) {
   if (!arguments.field.empty()) {
     DistanceField field = loadField(arguments.field);
     warnOfLost(arguments.field, {field, loadLostSurface(arguments.field)});
@@ -108,7 +108,7 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const QueryArguments& arguments) {
   if (!std::isfinite(arguments.query.sigma)) throw std::invalid_argument("--sigma is not finite");
   if (arguments.impact && (arguments.query.sigma != 0.0 || arguments.query.mode != SegmentMode::kAll)) {
     throw std::invalid_argument(
@@ -137,7 +137,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addQueryCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<QueryArguments>();
   CLI::App* command = app.add_subcommand("query", "Times during which moving points are inside an isosurface");
   command->footer(
       "In: a line ox,oy,oz,ex,ey,ez [m] per segment; an optional first line holds these names. Out: a line "

@@ -15,7 +15,7 @@
 namespace sdf_ccd::tools {
 namespace {
 
-struct Arguments {
+struct SimulateArguments {
   std::string scene;
   std::string out;
   std::string integrator;
@@ -46,7 +46,7 @@ struct Summary {
   }
 };
 
-std::string report(const Arguments& arguments, const SimulationSetup& setup, const StepRecord& start,
+std::string report(const SimulateArguments& arguments, const SimulationSetup& setup, const StepRecord& start,
                    const StepRecord& end, const Summary& summary) {
   std::size_t moving = 0;
   for (const RigidBody& body : setup.world.bodies) moving += !body.fixed;
@@ -74,7 +74,7 @@ std::string report(const Arguments& arguments, const SimulationSetup& setup, con
   return text;
 }
 
-void run(const Arguments& arguments) {
+void run(const SimulateArguments& arguments) {
   if (!(arguments.frames > 0.0) || !std::isfinite(arguments.frames)) {
     throw std::runtime_error("--frames must be positive");
   }
@@ -122,7 +122,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addSimulateCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<SimulateArguments>();
   CLI::App* command = app.add_subcommand("simulate", "Rigid bodies under the contact model");
   command->footer(
       "Writes steps.csv (per step: energies [J], momentum [N s] and angular momentum [N m s] about the scene's origin, "

@@ -24,7 +24,7 @@ using precision::StudyResult;
 
 constexpr int kQueries = 2000, kQuickQueries = 400;
 
-struct Arguments {
+struct WorkPrecisionArguments {
   std::string study;
   std::string out;
   std::string mesh;
@@ -62,7 +62,7 @@ void writePlot(const StudyResult& result, const std::string& path) {
   plot.commit();
 }
 
-void run(const Arguments& arguments) {
+void run(const WorkPrecisionArguments& arguments) {
   const std::vector<Study> wanted = chosen(arguments.study);
   precision::StudyInput input;
   input.mesh = meshOf(arguments.mesh);
@@ -94,7 +94,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addWorkPrecisionCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<WorkPrecisionArguments>();
   CLI::App* command = app.add_subcommand("work-precision", "Studies of error against run time");
   std::string described = "Studies:\n";
   for (const Study& study : precision::studies()) {

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr double kFastestRate = 1e4;  // of cycles [Hz]; each cycle covers all pairs
 
-struct Arguments {
+struct CheckBagArguments {
   std::string bag;
   std::string out;
   MonitorConfig config;
@@ -190,7 +190,7 @@ std::vector<std::string> whatIsMissing(const CycleStatistics& statistics, const 
   return missing;
 }
 
-void run(const Arguments& arguments) {
+void run(const CheckBagArguments& arguments) {
   MonitorParameters parameters = readParameters(arguments.config);
   const std::string map_topic = std::exchange(parameters.live_map.topic, "");
   require(parameters.rate <= kFastestRate,
@@ -255,7 +255,7 @@ void run(const Arguments& arguments) {
   if (!is_complete) throw PartlyDone();
 }
 
-void checkThenRun(const Arguments& arguments) {
+void checkThenRun(const CheckBagArguments& arguments) {
   require(arguments.motion.start >= 0.0, "--start must not be negative");
   require(arguments.motion.duration > 0.0, "--duration must be positive");
   require(!arguments.config.rate || *arguments.config.rate > 0.0, "--rate must be positive");
@@ -272,7 +272,7 @@ void checkThenRun(const Arguments& arguments) {
 }  // namespace
 
 void addCheckBagCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckBagArguments>();
   CLI::App* command = app.add_subcommand("check-bag", "What the collision monitor finds in a recorded bag");
   command->footer(
       "Runs the monitor's cycles over the bag on the bag's own clock, without a roscore. The robot is followed by tf; "

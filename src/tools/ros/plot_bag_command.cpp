@@ -13,13 +13,13 @@
 namespace sdf_ccd::tools {
 namespace {
 
-struct Arguments {
+struct PlotBagArguments {
   std::string bag;
   std::string out;
   std::string topic;
 };
 
-std::string topicOf(const rosbag::Bag& bag, const Arguments& arguments) {
+std::string topicOf(const rosbag::Bag& bag, const PlotBagArguments& arguments) {
   rosbag::View view(bag);
   std::set<std::string> topics;
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
@@ -47,7 +47,7 @@ void addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& repor
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const PlotBagArguments& arguments) {
   readBag(arguments.bag, [&] {
     rosbag::Bag bag(arguments.bag);
     const std::string topic = topicOf(bag, arguments);
@@ -69,7 +69,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void addPlotBagCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PlotBagArguments>();
   CLI::App* command =
       app.add_subcommand("plot-bag", "Error bound against run time of a monitor whose contacts were recorded");
   command->footer(
