@@ -1,15 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include <ros/serialization.h>
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
-
-#include "ros/bag/budget_allocator.h"
+#include <boost/make_shared.hpp>
 
 namespace sdf_ccd {
 
@@ -42,21 +44,45 @@ void readBag(const std::string& file, const Call& call) {
   }
 }
 
+/// Reads a message. Memory for the elements of a list is reserved before they are read, whatever their number is, so
+/// this is tested first: a damaged one could ask for more than the machine has.
+class MessageStream : public ros::serialization::IStream {
+ public:
+  MessageStream(std::vector<std::uint8_t>& bytes, const std::string& topic)
+      : IStream(bytes.data(), static_cast<std::uint32_t>(bytes.size())), topic_(topic) {}
+
+  template <class T>
+  void next(T& value) {
+    ros::serialization::deserialize(*this, value);
+  }
+  /// @throws rosbag::BagFormatException
+  template <class T, class Allocator>
+  void next(std::vector<T, Allocator>& values) {
+    static const std::uint32_t smallest = ros::serialization::serializationLength(T());
+    std::uint32_t count = 0;
+    if (getLength() >= sizeof count) std::memcpy(&count, getData(), sizeof count);
+    if (std::uint64_t(count) * smallest > getLength())
+      throw rosbag::BagFormatException("a message on " + topic_ + " has more elements than fit in it");
+    ros::serialization::deserialize(*this, values);
+  }
+
+ private:
+  const std::string& topic_;
+};
+
 /// A message of a bag; null if it is of another type.
-/// @throws rosbag::BagFormatException also if a damaged number of elements asks for more memory than the message's own
-/// length explains.
+/// @throws rosbag::BagFormatException also if it has a damaged number of elements.
 template <class Message>
 typename Message::ConstPtr messageOf(const rosbag::MessageInstance& message) {
   if (message.size() > largest_message)
     throw rosbag::BagFormatException("a message on " + message.getTopic() + " is longer than its chunk");
-  constexpr std::size_t kPerByte = 64;  // of a message in memory, per byte in the bag, and more than that
-  memory_budget = kPerByte * (message.size() + 64);
-  try {
-    if (!message.instantiate<typename WithBudget<Message>::type>()) return nullptr;
-  } catch (const std::bad_alloc&) {
-    throw rosbag::BagFormatException("a message on " + message.getTopic() + " has more elements than fit in it");
-  }
-  return message.instantiate<Message>();
+  if (!message.isType<Message>()) return nullptr;
+  std::vector<std::uint8_t> bytes(message.size());
+  ros::serialization::OStream to_bytes(bytes.data(), message.size());
+  message.write(to_bytes);
+  const auto read = boost::make_shared<Message>();
+  MessageStream(bytes, message.getTopic()).next(*read);
+  return read;
 }
 
 }  // namespace sdf_ccd
