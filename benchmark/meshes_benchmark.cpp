@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "embree_scene.h"
-#include "field/field_cost.h"
+#include "geometry/closed_solid.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
@@ -97,11 +97,6 @@ void study(const std::string& name, const TriangleMesh& mesh, const StudyOptions
   for (const std::string& error : options.errors) {
     FieldOptions field;
     field.max_error = std::stod(error) * box.sizes().maxCoeff();
-    start = processorSeconds();
-    const FieldCost expected = expectedCost(closed, field);
-    rows.add("sample_seconds_" + error, processorSeconds() - start, "s");
-    rows.add("expected_cpu_s_" + error, expected.seconds, "s");
-    rows.add("expected_mb_" + error, 1e-6 * expected.bytes, "MB");
     start = processorSeconds();
     const DistanceField built = buildField(closed, field);
     rows.add("build_seconds_" + error, processorSeconds() - start, "s");

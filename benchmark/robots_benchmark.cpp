@@ -9,7 +9,6 @@
 
 #include "common/seconds_since.h"
 #include "model/error_budget.h"
-#include "monitor/plan/scene_cost.h"
 #include "monitor/robot_motion.h"
 #include "oracle/random.h"
 #include "precision/error_summary.h"
@@ -59,7 +58,6 @@ Robot amongBoxes(Robot robot) {
 }
 
 struct Checked {
-  SceneCost expected;
   std::shared_ptr<const Scene> scene;
   double build_seconds = 0.0, bytes = 0.0, bound = 0.0;  // the largest bound [m]
   std::vector<double> milliseconds;                      // per cycle
@@ -75,7 +73,6 @@ Checked check(const Robot& robot, const BodyOptions& prepared, const MonitorOpti
               double motion_error = 0.0) {
   Checked checked;
   const ScenePlan plan = planScene(robot.scene, planOptions(prepared));
-  checked.expected = expectedCost(robot.scene, plan, prepared);
   const auto start = Clock::now();
   checked.scene = std::make_shared<const Scene>(buildScene(robot.scene, plan, prepared));
   checked.build_seconds = secondsSince(start);
@@ -104,9 +101,7 @@ void printCost(const std::string& name, Checked& checked) {
     print({"robots", name, "sdf_ccd", metric, value, unit, int(checked.milliseconds.size())});
   };
   row("memory", 1e-6 * checked.bytes, "MB");
-  row("expected_memory", 1e-6 * checked.expected.bytes, "MB");
   row("build", checked.build_seconds, "s");
-  row("expected_build", checked.expected.seconds, "s");
   row("cycle", checked.medianCycle(), "ms");
 }
 

@@ -92,17 +92,13 @@ class BodyBuilder {
     return parts;
   }
 
-  /// Makes shells that are expected to be refused as too large before the fields are built, which may take long.
-  void makeLargeShells(const BodyNeeds& needs) {
-    if (!needs.shell || mayShellBeCoarser(options_)) return;
-    for (PooledMesh* const mesh : meshes_) {
-      if (!mesh) continue;
-      const ShellOptions options = pool_.shellOptions(*mesh, hasSiblings());
-      if (expectedPoints(mesh->mesh, options) <= static_cast<double>(options.max_points)) continue;
-      note(pool_.makeShell(*mesh, hasSiblings()).outcome);
-    }
+  /// To be called before fields are built, which may take long: a shell that is too large is refused at once.
+  void sampleMeshes() {
+    for (PooledMesh* const mesh : meshes_)
+      if (mesh) note(pool_.makeShell(*mesh, hasSiblings()).outcome);
   }
 
+  /// @param parts  empty if no field is needed.
   PointShell makeShell(const std::vector<BodyPart>& parts) {
     std::vector<DistanceField> primitives;  // exact fields cost nothing, so siblings always have them
     primitives.reserve(meshes_.size());
@@ -114,7 +110,6 @@ class BodyBuilder {
         primitives.emplace_back(primitive);
         shells.push_back({geometry.X_BG, makeShell(primitive), &primitives.back()});
       } else {
-        note(pool_.makeShell(*meshes_[i], hasSiblings()).outcome);
         const bool known = !parts.empty() && meshes_[i]->quality.sign_trusted;
         shells.push_back({geometry.X_BG, *meshes_[i]->shells[hasSiblings()], known ? &*meshes_[i]->field : nullptr});
       }
@@ -131,7 +126,7 @@ class BodyBuilder {
       setFineness(tried, options);
       return sampleSurface(primitive, options);
     };
-    PointShell shell = makeCoarser(finenessOf(options), mayShellBeCoarser(options_), make, warning);
+    PointShell shell = makeCoarser(finenessOf(options), coarsestShell(options_), make, warning);
     if (!warning.empty()) report_.warnings.push_back(warning);
     return shell;
   }
@@ -152,6 +147,7 @@ class BodyBuilder {
 
   void note(const CacheOutcome& outcome) {
     report_.is_cache_incomplete |= outcome.is_missing;
+    if (!outcome.file.empty()) report_.files.push_back(outcome.file);
     if (!outcome.warning.empty()) report_.warnings.push_back(outcome.warning);
   }
 
@@ -178,7 +174,7 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   const Doubt doubt = builder.doubt();
   body.doubtful = doubt.of_outside;
   body.inside_is_doubtful = doubt.of_inside;
-  builder.makeLargeShells(needs);
+  if (needs.shell) builder.sampleMeshes();
   if (needs.field) body.parts = builder.makeParts(progress);
   PointShell shell;
   if (needs.shell) shell = builder.makeShell(body.parts);
@@ -231,6 +227,7 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
       build(needs, BodyBuilder(description, options, pool, built.report), progress, body, built.report);
     } catch (const std::exception& error) {
       body.failure = error.what();
+      built.exceeds_limit = dynamic_cast<const std::length_error*>(&error) != nullptr;
       body.parts.clear();
       body.shell = PointShell();
       body.tree = SphereTree();

@@ -18,6 +18,7 @@ std::string whyNoShell(const BodyDescription& body);
 struct BuiltBody {
   Body body;
   BodyReport report;
+  bool exceeds_limit = false;  ///< Body::failure: a field or shell is too large
 };
 
 /// Builds, or reads from the cache, field and shell of a body, as far as they are needed. If this fails,

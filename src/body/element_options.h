@@ -26,13 +26,14 @@ inline void setFineness(double fineness, ShellOptions& shell) {
   shell.spacing = std::max(shell.spacing, fineness);
 }
 
-/// Whether fields, or shells, that would be too large are made coarser: if nobody has set their resolution.
+/// How many times coarser a field, or shell, that would be too large may be made: 1 if somebody has set its resolution,
+/// and not much where it is a share of max_error, which would be missed by far.
 ///@{
-inline bool mayFieldBeCoarser(const BodyOptions& options) {
-  return options.divides_max_error || options.cells_across > 0.0;
+inline double coarsestField(const BodyOptions& options) {
+  return options.divides_max_error ? 2.0 : options.cells_across > 0.0 ? 1e3 : 1.0;
 }
-inline bool mayShellBeCoarser(const BodyOptions& options) {
-  return options.divides_max_error || options.points_across > 0.0;
+inline double coarsestShell(const BodyOptions& options) {
+  return options.divides_max_error ? 2.0 : options.points_across > 0.0 ? 1e3 : 1.0;
 }
 ///@}
 

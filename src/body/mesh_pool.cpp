@@ -8,6 +8,7 @@
 #include "element_options.h"
 #include "field/field_cache.h"
 #include "field/grid_cell.h"
+#include "field/machine_limit.h"
 #include "shell/shell_cache.h"
 
 namespace sdf_ccd {
@@ -44,12 +45,6 @@ PooledMesh& MeshPool::find(const GeometryDescription& geometry) {
   return meshes_.emplace(key, std::move(pooled)).first->second;
 }
 
-MeshPool::TimeUsed& MeshPool::timeOf(const BodyDescription& body) {
-  std::string key;
-  for (const GeometryDescription& geometry : body.geometry) key += keys_.keyOf(geometry);
-  return times_[key];
-}
-
 std::string MeshPool::tooLong() const {
   return "preparing it takes more than the " + numberText(options_.max_preparation_time) +
          " s of max_preparation_time: its meshes have too many triangles, too many that cross each other, or too fine "
@@ -84,20 +79,23 @@ FieldOptions MeshPool::fieldOptions(const PooledMesh& mesh) const {
 MeshPool::Made MeshPool::makeField(PooledMesh& mesh, const Progress& progress) {
   if (mesh.field) return {};
   FieldOptions options = fieldOptions(mesh);
+  options.max_bytes = std::min(options.max_bytes, machineLimit(field_bytes_));
   std::string warning;
   std::optional<double>& fineness = options.max_error ? options.max_error : options.cell_size;
   const auto make = [&](double tried) {
     if (fineness) fineness = tried;
     return cachedField(cache_, {mesh.mesh, mesh.made}, options, progress);
   };
-  const bool may = mayFieldBeCoarser(options_) && fineness && !mesh.cell_size;
-  CachedField made = makeCoarser(fineness.value_or(0.0), may, make, warning);
+  const double coarsest = fineness && !mesh.cell_size ? coarsestField(options_) : 1.0;
+  CachedField made = makeCoarser(fineness.value_or(1.0), coarsest, make, warning);
   mesh.field = std::move(made.field);
+  field_bytes_ += mesh.field->bytes();
   if (options.max_error && mesh.field->errorBound() > 1.001 * *options.max_error) {
     warning = "field: error " + numberText(mesh.field->errorBound()) + " m instead of " +
               numberText(*options.max_error) + " m; cells cannot be smaller";
   }
-  return noted(made.outcome, warning);
+  if (!warning.empty()) made.outcome.warning = warning;
+  return {true, std::move(made.outcome)};
 }
 
 MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
@@ -109,15 +107,10 @@ MeshPool::Made MeshPool::makeShell(PooledMesh& mesh, bool has_siblings) {
     setFineness(tried, options);
     return cachedShell(cache_, {mesh.mesh, mesh.made}, options);
   };
-  CachedShell made = makeCoarser(finenessOf(options), mayShellBeCoarser(options_), make, warning);
+  CachedShell made = makeCoarser(finenessOf(options), coarsestShell(options_), make, warning);
   shell = std::move(made.shell);
-  return noted(made.outcome, warning);
-}
-
-MeshPool::Made MeshPool::noted(CacheOutcome outcome, const std::string& warning) {
-  if (!outcome.file.empty()) files_.insert(outcome.file);
-  if (!warning.empty()) outcome.warning = warning;
-  return {true, std::move(outcome)};
+  if (!warning.empty()) made.outcome.warning = warning;
+  return {true, std::move(made.outcome)};
 }
 
 }  // namespace sdf_ccd

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <chrono>
 #include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 
 #include "body/geometry_keys.h"
-#include "common/seconds_since.h"
 #include "common/time_limit.h"
 #include "common/weak_store.h"
 #include "geometry/closed_solid.h"
@@ -55,63 +52,43 @@ class MeshPool {
   SharedContent& content();
   GeometryKeys& keys() { return keys_; }
 
-  /// Calls work(), which is part of preparing this body. All of it together may take options.max_preparation_time.
-  /// @throws TookTooLong if it takes longer, and at once if bodies of the same meshes have; see withinSeconds().
+  /// Calls work(), which prepares this body, and may take options.max_preparation_time.
+  /// @throws TookTooLong if it takes longer, and at once if a body of the same meshes has; see withinSeconds().
   template <class Work>
   auto withinTime(const BodyDescription& body, const Work& work) {
-    TimeUsed& used = timeOf(body);
-    const TimeUsed::Part part(used);
-    return withinSeconds(std::max(0.0, options_.max_preparation_time - used.seconds), tooLong(), work);
+    std::string meshes;
+    for (const GeometryDescription& geometry : body.geometry) meshes += keys_.keyOf(geometry);
+    if (late_.count(meshes) > 0) throw TookTooLong(tooLong());
+    try {
+      return withinSeconds(options_.max_preparation_time, tooLong(), work);
+    } catch (const TookTooLong&) {
+      late_.insert(meshes);
+      throw;
+    }
   }
-
-  /// Names of the cache's files that hold what was made or loaded.
-  const std::set<std::string>& files() const { return files_; }
 
   struct Made {
     bool now = false;  ///< false: it existed already, for another body
     CacheOutcome outcome;
   };
-  /// The options of the field of a mesh. @throws std::invalid_argument for options that no field can have.
-  FieldOptions fieldOptions(const PooledMesh& mesh) const;
-  ShellOptions shellOptions(const PooledMesh& mesh, bool has_siblings) const;
-
   /// If the options require more than a field or shell may cost, and allow a coarser one, a coarser one is built; the
-  /// outcome's warning says so.
+  /// outcome's warning says so, in place of the cache's.
   Made makeField(PooledMesh& mesh, const Progress& progress);
   Made makeShell(PooledMesh& mesh, bool has_siblings);
 
  private:
-  /// Of preparing bodies of the same meshes.
-  struct TimeUsed {
-    /// Adds its own lifetime.
-    class Part {
-     public:
-      explicit Part(TimeUsed& used) : used_(used), start_(std::chrono::steady_clock::now()) {}
-      ~Part() { used_.seconds += secondsSince(start_); }
-      Part(const Part&) = delete;
-      Part& operator=(const Part&) = delete;
-
-     private:
-      TimeUsed& used_;
-      std::chrono::steady_clock::time_point start_;
-    };
-
-    double seconds = 0.0;
-  };
-
-  TimeUsed& timeOf(const BodyDescription& body);
+  /// @throws std::invalid_argument for options that no field can have.
+  FieldOptions fieldOptions(const PooledMesh& mesh) const;
+  ShellOptions shellOptions(const PooledMesh& mesh, bool has_siblings) const;
   std::string tooLong() const;
-
-  /// Notes the file. A warning of the pool replaces that of the cache.
-  Made noted(CacheOutcome outcome, const std::string& warning);
 
   const BodyOptions options_;
   FileCache cache_;
   GeometryKeys keys_;
   SharedContent content_;
   std::unordered_map<std::string, PooledMesh> meshes_;  // by the geometry's key
-  std::set<std::string> files_;
-  std::unordered_map<std::string, TimeUsed> times_;  // by the keys of a body's geometry, wherever it is in the body
+  std::size_t field_bytes_ = 0;                         // of all fields
+  std::set<std::string> late_;                          // keys of the geometry of bodies that took too long
 };
 
 }  // namespace sdf_ccd

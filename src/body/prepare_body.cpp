@@ -33,9 +33,10 @@ Body prepareBody(const BodyDescription& description, const Accuracy& accuracy) {
   BodyNeeds needs;
   needs.shell = whyNoShell(description).empty();
   needs.triangles = true;
-  auto [body, report] = buildBody(description, needs, options, pool, {});
+  BuiltBody built = buildBody(description, needs, options, pool, {});
+  Body& body = built.body;
   if (!body.failure.empty()) throw std::invalid_argument(description.name + ": " + body.failure);
-  for (const std::string& warning : report.warnings)
+  for (const std::string& warning : built.report.warnings)
     if (body.warning.find(warning) == std::string::npos) body.warning += (body.warning.empty() ? "" : "; ") + warning;
   return std::move(body);
 }

@@ -10,6 +10,10 @@
 namespace sdf_ccd {
 namespace {
 
+/// Caps whose points are at most this share of the error bound from the mesh are not stored: they close cracks. The
+/// error bounds of the field include that distance.
+constexpr double kNarrowCap = 0.25;
+
 /// The caps that a field stores: those that reach farther than `limit` [m] from the mesh. Null if none do.
 /// @param narrow  is set to the largest reach of the others [m].
 std::shared_ptr<const OpeningCaps> wideCaps(const Openings& openings, double limit, double& narrow) {

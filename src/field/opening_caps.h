@@ -7,10 +7,6 @@
 
 namespace sdf_ccd {
 
-/// Caps whose points are at most this share of the error bound from the mesh are not stored: they close cracks. The
-/// error bounds of the field include that distance.
-constexpr double kNarrowCap = 0.25;
-
 /// The parts of a field's surface that are not on its mesh: triangles that close the openings (see findOpenings()).
 class OpeningCaps {
  public:

@@ -1,15 +1,12 @@
 #pragma once
 
-#include "field/field_cost.h"
 #include "geometry/closed_solid.h"
+#include "sdf_ccd/field/build_field.h"
 
 namespace sdf_ccd {
 
 /// The field of the solid that a mesh bounds: computed from voxels if the mesh is a boundary of voxels and the options
 /// allow it (canBeLattice()), else from the triangles.
 DistanceField buildField(const SolidSource& source, const FieldOptions& options, const Progress& progress = {});
-
-/// The expected cost of that buildField().
-FieldCost expectedCost(const SolidSource& source, const FieldOptions& options);
 
 }  // namespace sdf_ccd

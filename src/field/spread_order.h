@@ -16,7 +16,6 @@ class SpreadOrder {
     while (count > 1 && std::gcd(step_, count) != 1) ++step_;
   }
 
-  std::size_t size() const { return count_; }
   std::size_t operator[](std::size_t i) const {
     assert(count_ > 0);
     return i % count_ * step_ % count_;

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "field/field_cost.h"
 #include "geometry/voxel_solid.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
@@ -49,8 +48,5 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
 
 /// Whether the options meet these conditions.
 bool canBeLattice(const VoxelSolid& solid, const FieldOptions& options);
-
-/// The expected cost of that buildField(), measured on a sample of its blocks.
-FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options);
 
 }  // namespace sdf_ccd

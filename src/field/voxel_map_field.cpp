@@ -6,11 +6,9 @@
 
 #include "common/lattice.h"
 #include "common/parallel_for.h"
-#include "common/processor_time.h"
 #include "common/progress_counter.h"
 #include "field/corner_squares.h"
 #include "field/lattice_grid.h"
-#include "field/spread_order.h"
 #include "field/uniform/uniform_shape.h"
 #include "field/voxel_field.h"
 #include "grid_cell.h"
@@ -53,32 +51,16 @@ class MapGrid {
     return inMetres(outside, squares(false));
   }
 
-  /// Processor seconds of corners(), estimated from the middle column.
-  double cornerSeconds() const {
-    const CornerSquares squares(solid_, grid_, n_, true);
-    std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
-    const double start = threadSeconds();
-    squares.compute(squares.columns() / 2, found);
-    return 2.0 * squares.columns() * (threadSeconds() - start);
-  }
-
   Vector3i blocks() const { return (shape().bricks.array() + kBlock - 1) / kBlock; }
   Vector3i blockAt(std::size_t i) const { return pointIn(blocks(), i); }
 
-  /// Whether a brick may need samples, judged by the distances at its corners.
-  bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
-    // Every point of the brick is at most half of its diagonal from one of its corners.
-    return nearestCorner(shape(), corners, brick) <=
-           shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
-  }
-
-  /// Finds the bricks of a block that need samples, and their samples. @param mayBe  false for bricks that need none.
-  template <class MayBe>
-  void make(const Vector3i& block, const MayBe& mayBe, std::vector<std::size_t>& bricks, BrickSamples& samples) const {
+  /// Finds the bricks of a block that need samples, and their samples. @param corners  distances at all corners.
+  void make(const Vector3i& block, const std::vector<float>& corners, std::vector<std::size_t>& bricks,
+            BrickSamples& samples) const {
     const Vector3i first = kBlock * block, end = (first.array() + kBlock).min(shape().bricks.array());
     std::vector<Vector3i> near;
     forEachPoint(first, end, [&](const Vector3i& b) {
-      if (mayBe(b)) near.push_back(b);
+      if (mayBeNear(b, corners)) near.push_back(b);
     });
     if (near.empty()) return;
     const int reach = farthestSample(shape());
@@ -96,6 +78,13 @@ class MapGrid {
   }
 
  private:
+  /// Whether a brick may need samples, judged by the distances at its corners.
+  bool mayBeNear(const Vector3i& brick, const std::vector<float>& corners) const {
+    // Every point of the brick is at most half of its diagonal from one of its corners.
+    return nearestCorner(shape(), corners, brick) <=
+           shape().band + (1.0 + kHalfSqrt3 * (1 + GridShape::kBrick)) * shape().cell;
+  }
+
   std::vector<float> squares(bool to_occupied) const {
     std::vector<float> found(shape().cornerCount(), std::numeric_limits<float>::infinity());
     const CornerSquares squares(solid_, grid_, n_, to_occupied);
@@ -146,8 +135,7 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
   ProgressCounter counter(progress, blocks);
   parallelFor(std::size_t{0}, blocks, [&](std::size_t i) {
     BrickSamples samples;
-    map.make(
-        map.blockAt(i), [&](const Vector3i& brick) { return map.mayBeNear(brick, data.corners); }, bricks[i], samples);
+    map.make(map.blockAt(i), data.corners, bricks[i], samples);
     made[i] = std::move(samples.samples);
     {
       const std::lock_guard<std::mutex> lock(mutex);
@@ -165,30 +153,6 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
     of_block = {};
   }
   return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
-}
-
-FieldCost expectedCost(const VoxelSolid& solid, const FieldOptions& options) {
-  constexpr double kSeconds = 15e-3;
-  constexpr std::size_t kMin = 8;
-  validate(options);
-  const MapGrid map(solid, options);
-  const std::size_t blocks = static_cast<std::size_t>(map.blocks().prod());
-  const SpreadOrder order(blocks);
-  std::size_t tested = 0, bricks = 0;
-  const double start = threadSeconds();
-  for (; tested < blocks && (tested < kMin || threadSeconds() - start < kSeconds); ++tested) {
-    std::vector<std::size_t> found;
-    BrickSamples samples;
-    map.make(
-        map.blockAt(order[tested]), [](const Vector3i&) { return true; }, found, samples);
-    bricks += found.size();
-  }
-  const double share = double(blocks) / double(tested), taken = threadSeconds() - start;
-  FieldCost cost;
-  cost.bytes = double(map.shape().coarseBytes()) + share * double(bricks) * kBrickBytes;
-  cost.seconds = map.cornerSeconds() + share * taken;
-  cost.bytes_error = cost.seconds_error = tested < blocks ? 1.0 / std::sqrt(double(tested)) : 0.0;
-  return cost;
 }
 
 }  // namespace sdf_ccd

@@ -3,12 +3,11 @@
 #include <map>
 #include <set>
 #include <stdexcept>
-#include <unordered_map>
 
 #include "body/build_body.h"
+#include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
-#include "monitor/plan/scene_cost.h"
 #include "monitor/plan/scene_totals.h"
 #include "monitor/plan/surface_needs.h"
 #include "resting_answers.h"
@@ -21,30 +20,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Progress of building all bodies, by their expected times.
-class Pace {
- public:
-  Pace(const SceneDescription& description, const SceneCost* expected) {
-    constexpr double kMin = 1e-3;  // of any body [s]
-    std::unordered_map<std::string, const BodyCost*> costs;
-    if (expected)
-      for (const BodyCost& cost : expected->bodies) costs[cost.name] = &cost;
-    for (const BodyDescription& body : description.bodies) {
-      const auto found = costs.find(body.name);
-      const bool known = found != costs.end();
-      fields_.push_back(known ? found->second->field_seconds : expected ? 0.0 : 1.0);
-      before_.push_back(all_);
-      all_ += (known ? found->second->seconds : fields_.back()) + kMin;
+/// Of bodies' bounded elements.
+void requireSmallerThanBodies(const SceneDescription& description, double max_error) {
+  std::string largest;
+  double longest = 0.0;  // [m]
+  for (const BodyDescription& body : description.bodies) {
+    for (const GeometryDescription& geometry : body.geometry) {
+      const auto* primitive = std::get_if<Primitive>(&geometry.shape);
+      const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
+      if (mesh && !*mesh) continue;
+      const AlignedBox3d box = primitive ? boundingBox(*primitive) : boundingBox(**mesh);
+      if (!box.sizes().allFinite() || box.isEmpty() || box.sizes().norm() <= longest) continue;
+      longest = box.sizes().norm();
+      largest = body.name;
     }
   }
-
-  /// Progress when this share of a body's fields is done.
-  double done(std::size_t body, double share) const { return (before_[body] + share * fields_[body]) / all_; }
-
- private:
-  std::vector<double> fields_, before_;  ///< per body: expected time for its fields, and for the bodies before it [s]
-  double all_ = 0.0;
-};
+  if (longest == 0.0 || max_error <= longest) return;
+  throw std::invalid_argument("a max_error of " + numberText(max_error) + " m is larger than every body: " + largest +
+                              " is " + numberText(longest) + " m long");
+}
 
 /// Warnings that several reports share, as of a cache that cannot be used, are the scene's: once, not body by body.
 void shareWarnings(Scene& scene) {
@@ -75,27 +69,29 @@ void addPair(const std::vector<Body>& bodies, int a, int b, Scene& scene) {
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress) {
   const auto start = Clock::now();
+  if (options.max_error) requireSmallerThanBodies(description, *options.max_error);
   Scene scene = plannedScene(description, plan, options);
-  const std::shared_ptr<MeshPool> pool =
-      plan.expected && plan.expected->meshes ? plan.expected->meshes : std::make_shared<MeshPool>(options);
+  MeshPool pool(options);
   const std::size_t count = description.bodies.size();
-  const Pace pace(description, plan.expected.get());
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const BodyDescription& described = description.bodies[i];
     checkCancelled();
     const auto report_progress = [&](double share) {
-      if (progress) progress(described.name, pace.done(i, share));
+      if (progress) progress(described.name, (double(i) + share) / double(count));
     };
     report_progress(0.0);
-    BuiltBody built = buildBody(described, plan.needs[i], options, *pool, report_progress);
+    BuiltBody built = buildBody(described, plan.needs[i], options, pool, report_progress);
+    if (built.exceeds_limit && options.divides_max_error)
+      throw std::length_error("a max_error of " + numberText(*options.max_error) + " m is too small for " +
+                              described.name + ": " + built.body.failure);
     bodies.push_back(std::move(built.body));
     scene.reports.push_back(std::move(built.report));
   }
   for (std::size_t i = 0; i < count; ++i) {
     Body& body = bodies[i];
     if (needsSurface(description, description.bodies[i]) && body.failure.empty() && !body.surface)
-      body.surface = surfaceOf(description.bodies[i], *pool);
+      body.surface = surfaceOf(description.bodies[i], pool);
   }
   shareWarnings(scene);
   scene.bodies = BodyList(std::move(bodies));

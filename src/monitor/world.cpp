@@ -11,7 +11,6 @@
 #include "body/build_body.h"
 #include "common/seconds_since.h"
 #include "model/name_pair.h"
-#include "monitor/plan/scene_cost.h"
 #include "monitor/plan/scene_totals.h"
 #include "monitor/plan/surface_needs.h"
 #include "prepared_bodies.h"
@@ -22,8 +21,6 @@ namespace sdf_ccd {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kLongTime = 1.0;  // of making a version [s]
 
 std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& description) {
   auto body = std::make_shared<Body>(prepared);
@@ -88,8 +85,6 @@ struct WorldEditor::Impl {
 
   std::vector<std::string> keysOf(const SceneDescription& description);
   std::optional<PreparedBody> kept(const std::string& key);
-  SceneCost affordableCost(const SceneDescription& description, const ScenePlan& plan,
-                           const std::vector<std::string>& keys);
   std::vector<Shared> addBodies(const SceneDescription& description, const std::vector<PreparedBody*>& prepared,
                                 WorldSnapshot& snapshot, Scene& scene);
   std::shared_ptr<const WorldSnapshot> finish(SceneDescription description, const std::vector<Shared>& prepared,
@@ -119,33 +114,6 @@ std::optional<PreparedBody> WorldEditor::Impl::kept(const std::string& key) {
   const std::lock_guard<std::mutex> lock(mutex);
   const PreparedBody* const body = bodies.find(key);
   return body ? std::optional<PreparedBody>(*body) : std::nullopt;
-}
-
-/// The cost of the bodies that are not prepared yet. @throws as requireAffordable().
-SceneCost WorldEditor::Impl::affordableCost(const SceneDescription& description, const ScenePlan& plan,
-                                            const std::vector<std::string>& keys_of_bodies) {
-  SceneDescription missing;
-  ScenePlan missing_plan;
-  for (std::size_t b = 0; b < keys_of_bodies.size(); ++b) {
-    const BodyDescription& body = description.bodies[b];
-    const BodyNeeds& needs = plan.needs[b];
-    if (!body.failure.empty() || !needs.any()) continue;
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      if (bodies.find(keys_of_bodies[b], needs)) continue;
-    }
-    const bool has_mesh = std::any_of(body.geometry.begin(), body.geometry.end(), [](const GeometryDescription& part) {
-      return !std::holds_alternative<Primitive>(part.shape) && !part.field;
-    });
-    const bool is_large_primitive = !has_mesh && needs.shell;
-    if (!has_mesh && !is_large_primitive) continue;  // their cost is negligible
-    missing.bodies.push_back(body);
-    missing_plan.needs.push_back(needs);
-  }
-  if (missing.bodies.empty()) return {};
-  SceneCost cost = expectedCost(missing, missing_plan, options);
-  requireAffordable(cost, options);
-  return cost;
 }
 
 /// Adds the bodies, those of the last version where nothing has changed, and their reports. @return as prepared
@@ -215,14 +183,11 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::begin(SceneDescription descrip
 }
 
 std::shared_ptr<const WorldEditor::Parts> WorldEditor::prepare(
-    const SceneDescription& description, const std::function<void(const std::string&)>& progress,
-    const std::function<void(const std::string&)>& announce) const {
+    const SceneDescription& description, const std::function<void(const std::string&)>& progress) const {
   ScenePlan plan = planScene(description, planOptions(impl_->options));
   const std::vector<std::string> keys = impl_->keysOf(description);
-  const SceneCost cost = impl_->affordableCost(description, plan, keys);
-  if (announce && cost.seconds > kLongTime) announce(summary(cost));
   auto parts = std::make_shared<Parts>();
-  const auto pool = cost.meshes ? cost.meshes : std::make_shared<MeshPool>(impl_->options);
+  MeshPool pool(impl_->options);
   bodiesFor(description, plan, [&](std::size_t b) {
     const std::string& key = keys[b];
     if (PreparedBody* const known = parts->bodies.find(key, plan.needs[b])) return known;
@@ -232,7 +197,7 @@ std::shared_ptr<const WorldEditor::Parts> WorldEditor::prepare(
     }
     const BodyDescription& body = description.bodies[b];
     if (progress) progress(body.name);
-    PreparedBody& made = parts->bodies.make(key, body, plan.needs[b], impl_->options, *pool);
+    PreparedBody& made = parts->bodies.make(key, body, plan.needs[b], impl_->options, pool);
     ++parts->made;
     for (const std::string& warning : made.report.warnings) parts->warnings.push_back(body.name + ": " + warning);
     return &made;

@@ -11,7 +11,6 @@
 #include "common/seconds_since.h"
 #include "geometry/unit_hint.h"
 #include "model/error_budget.h"
-#include "monitor/plan/scene_cost.h"
 #include "observed_pairs.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
@@ -161,9 +160,7 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   const auto build_progress = [&](const std::string&, double share) {
     if (options.progress) options.progress("fields and shells", share);
   };
-  ScenePlan plan = planScene(description, planOptions(scene_options));
-  plan.expected = std::make_shared<const SceneCost>(expectedCost(description, plan, scene_options));
-  requireAffordable(*plan.expected, scene_options);
+  const ScenePlan plan = planScene(description, planOptions(scene_options));
   const Scene scene = buildScene(description, plan, scene_options, build_progress);
   const auto built = Clock::now();
   const std::vector<ObservedPair> seen = testPairs(robot, scene, options);

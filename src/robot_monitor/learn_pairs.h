@@ -59,7 +59,7 @@ struct LearnedPairs {
 /// planar, floating or unlimited prismatic joint between them, or whose shapes cannot be read. The result depends on
 /// the states and the meshes only, not on the number of threads (those of the caller's TBB arena).
 /// @throws std::invalid_argument if there are no states, or max_error cannot be met; std::length_error if that needs
-/// more memory than the machine has, or far more than one field or shell may take (see requireAffordable()).
+/// far more memory than one field or shell may take (see buildScene()).
 LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
                         const LearnOptions& options);
 

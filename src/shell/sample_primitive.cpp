@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 
+#include "common/number_text.h"
 #include "edge_sampling.h"
 
 namespace sdf_ccd {
@@ -31,6 +34,18 @@ void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
 constexpr double kDeviation = 0.005;
 constexpr double kEdgeDeviation = 0.5;  ///< the same over the edges' flatness
 
+/// Triangles of a sphere's tessellation grow as 1/spacing, its points as 1/spacing²: of those, too, there are too many.
+/// @throws std::length_error before a tessellation that would take minutes.
+void requireFew(const Sphere& sphere, double deviation, const ShellOptions& options) {
+  constexpr double kAlwaysFew = 1e6;
+  const double triangles = 4.8 * sphere.radius / deviation;
+  if (triangles > std::max(kAlwaysFew, static_cast<double>(options.max_points)))
+    throw std::length_error("a point every " + numberText(hasEdges(options) ? options.edge_gap : options.spacing) +
+                            " m on a sphere needs more than " + std::to_string(options.max_points) + " points");
+}
+template <typename Solid>
+void requireFew(const Solid&, double, const ShellOptions&) {}
+
 template <typename Solid>
 PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
   constexpr bool curved = !std::is_same_v<Solid, Box>;
@@ -49,6 +64,7 @@ PointShell sampleSolid(const Solid& solid, const ShellOptions& options) {
     if (hasEdges(options)) flat.edge_gap = options.edge_gap - 2 * deviation;
     // If the tessellation is finer than the shell, its vertices are not features that must be kept.
     flat.vertex_spacing = std::max(options.vertex_spacing, flat.spacing);
+    requireFew(solid, deviation, options);
   }
   SampledPoints shell = samplePoints(tessellate(solid, curved ? deviation : options.spacing), flat, edges);
   double area = 0;

@@ -149,14 +149,4 @@ SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& request
   return shell;
 }
 
-double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options) {
-  validate(options);
-  const TriangleMesh surface = welded(mesh);
-  const double faces = surfacePoints(surface, options.spacing);
-  if (!hasEdges(options)) return faces;
-  const EdgeSampling sampling(options);
-  const double on_edges = edgePoints(length(edgesOfFlatPieces(surface, sampling.flatness)), sampling.radius);
-  return std::min(faces + on_edges, surfacePoints(surface, sampling.covering));
-}
-
 }  // namespace sdf_ccd

@@ -20,14 +20,10 @@ class Solid;
 ///
 /// A location belongs to the nearest point whose normal does not oppose the location's own, and gaps are filled by the
 /// same measure, so both sides of a thin plate get points and area. The covering radius counts all points.
-/// @throws std::invalid_argument if the mesh or the options are not valid.
+/// @throws std::invalid_argument if the mesh or the options are not valid; std::length_error beyond options.max_points,
+/// at once if areas and edges show it.
 PointShell sampleSurface(const TriangleMesh& mesh, const ShellOptions& options);
 PointShell sampleSurface(const Solid& solid, const ShellOptions& options);
-
-/// Approximate number of points that sampleSurface() takes, from areas and edges alone; few vertices are assumed. For
-/// many slivers within the spacing of each other, it is the number of points that would take as much time.
-/// sampleSurface() refuses at the start what is expected to take more than options.max_points.
-double expectedPoints(const TriangleMesh& mesh, const ShellOptions& options);
 
 /// Point shell of a primitive: points exactly on its surface, with its exact normals away from edges. Areas sum to the
 /// primitive's. On a sphere or cylinder, points from vertices are no nearer to each other than the spacing.

@@ -98,7 +98,7 @@ std::optional<DistanceField> inspect(const InfoArguments& arguments) {
     if (!wants_field) return std::nullopt;
     MadeSolid made;
     made.may_be_voxels = true;
-    return buildAffordable(file, mesh, made, arguments.resolution.fieldOptions(voxel_size / 2.0), ThinWalls::kReport);
+    return buildFileField(file, mesh, made, arguments.resolution.fieldOptions(voxel_size / 2.0), ThinWalls::kReport);
   }
   const OrientedMesh oriented = orientWithWarning(file, loadMesh(file));
   printQuality(oriented.quality);
@@ -106,8 +106,8 @@ std::optional<DistanceField> inspect(const InfoArguments& arguments) {
   MadeSolid made;
   printSolid(SolidSource(oriented.mesh, made).solid().report(), "solid: ");
   if (!wants_field) return std::nullopt;
-  return buildAffordable(file, oriented.mesh, made, arguments.resolution.fieldOptions(),
-                         arguments.resolution.thinWalls());
+  return buildFileField(file, oriented.mesh, made, arguments.resolution.fieldOptions(),
+                        arguments.resolution.thinWalls());
 }
 
 void run(const InfoArguments& arguments) {

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "body/body_options.h"
-#include "build_cost.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
+#include "field/grid_cell.h"
 #include "field/source_field.h"
 #include "mesh_field.h"
 #include "output_file.h"
@@ -26,6 +26,13 @@ ShellOptions shellOptions(const MeshBuild& build, double field_error) {
   ShellOptions options = shellForField(field_error);
   if (build.spacing) options.spacing = *build.spacing;
   return options;
+}
+
+/// The error bound of a field with these options, but for rounding [m].
+double errorOf(const FieldOptions& options, const TriangleMesh& mesh) {
+  if (options.max_error) return *options.max_error;
+  if (options.cell_size) return kHalfSqrt3 * *options.cell_size;
+  return kHalfSqrt3 * boundingBox(mesh).sizes().maxCoeff() / *options.cells;
 }
 
 /// @param start  when making it began.
@@ -51,23 +58,21 @@ void buildMesh(MeshBuild build, const std::string& directory) {
   }
   const OutputDirectory out(directory);
   const SolidSource source(build.mesh, made);
-  const auto shell_of = [&](double field_error) { return shellOptions(build, field_error); };
-  announceCost(build.name, build.mesh, source, build.field, made.may_be_voxels ? ShellOf() : shell_of);
-
   const auto start = Clock::now();
   const MeshField built = buildWithBar("field of " + build.name, source, build.field, build.thin_walls);
   const DistanceField& field = built.field;
   if (!made.may_be_voxels) printSolid(source.solid().report(), "  solid  ");
-  saveField(field, out.file(build.name + ".field"), {}, built.lost);
   warnOfLost(build.name, built);
   report("field", build.name + ".field", field, start);
-  if (made.may_be_voxels) return;
-  const auto field_end = Clock::now();
-  // Cells that are small only because of thin walls need no more points.
-  const double error = std::max(field.errorBound(), errorOf(build.field, build.mesh));
-  const PointShell shell = sampleSurface(source.solid(), shellOptions(build, error));
-  saveShell(shell, out.file(build.name + ".shell"));
-  report("shell", build.name + ".shell", shell, field_end);
+  if (!made.may_be_voxels) {
+    const auto field_end = Clock::now();
+    // Cells that are small only because of thin walls need no more points.
+    const double error = std::max(field.errorBound(), errorOf(build.field, build.mesh));
+    const PointShell shell = sampleSurface(source.solid(), shellOptions(build, error));
+    saveShell(shell, out.file(build.name + ".shell"));
+    report("shell", build.name + ".shell", shell, field_end);
+  }
+  saveField(field, out.file(build.name + ".field"), {}, built.lost);
 }
 
 }  // namespace sdf_ccd::tools

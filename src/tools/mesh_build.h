@@ -19,11 +19,10 @@ struct MeshBuild {
   std::optional<double> spacing;              ///< of the shell's points [m]; if not set, two cells of a uniform grid
 };
 
-/// Writes NAME.field and, unless the mesh is a voxel surface, NAME.shell, and reports on both. Prints the expected cost
-/// first if building takes more than a second. The components of a mesh are oriented outward; existing files are
-/// overwritten.
+/// Writes NAME.field and, unless the mesh is a voxel surface, NAME.shell, and reports on both. The components of a
+/// mesh are oriented outward; existing files are overwritten.
 /// @param directory  made if it does not exist.
-/// @throws std::length_error beyond the monitor's limits, with an option that would fit; std::runtime_error if the
+/// @throws std::length_error if field or shell would be too large, and no file is written; std::runtime_error if the
 /// directory cannot be written to.
 void buildMesh(MeshBuild build, const std::string& directory);
 

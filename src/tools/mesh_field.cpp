@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "build_cost.h"
 #include "common/time_limit.h"
+#include "field/machine_limit.h"
 #include "field/source_field.h"
 #include "field/voxel_field.h"
 #include "lost_walls.h"
@@ -28,10 +28,11 @@ void printSolid(const SolidReport& report, const std::string& indent) {
   if (!doubt.empty()) std::cout << indent << "warning: " << doubt << "\n";
 }
 
-MeshField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options,
+MeshField buildWithBar(const std::string& title, const SolidSource& source, FieldOptions options,
                        ThinWalls thin_walls) {
   constexpr double kSecondsForWalls = 10.0;
   constexpr int kMostCells = 16384;  // along the longest side, of any field
+  options.max_bytes = std::min(options.max_bytes, machineLimit());
   ProgressBar bar(title);
   const auto build = [&](const FieldOptions& tried) {
     DistanceField field = buildField(source, tried, [&](double share) { bar(share); });
@@ -62,11 +63,9 @@ void warnOfLost(const std::string& source, const MeshField& made) {
   if (!text.empty()) std::cerr << "sdf_ccd: " << source << ": " << text << std::endl;
 }
 
-DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
-                              const FieldOptions& options, ThinWalls thin_walls) {
-  const SolidSource source(mesh, made);
-  announceCost(file, mesh, source, options);
-  MeshField built = buildWithBar("field", source, options, thin_walls);
+DistanceField buildFileField(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
+                             const FieldOptions& options, ThinWalls thin_walls) {
+  MeshField built = buildWithBar("field", {mesh, made}, options, thin_walls);
   warnOfLost(file, built);
   return std::move(built.field);
 }

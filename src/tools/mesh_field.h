@@ -32,17 +32,15 @@ enum class ThinWalls {
 };
 
 /// Builds a field, with a progress bar of this title.
-MeshField buildWithBar(const std::string& title, const SolidSource& source, const FieldOptions& options,
-                       ThinWalls thin_walls);
+/// @throws std::length_error if it would exceed options.max_bytes or this machine's memory.
+MeshField buildWithBar(const std::string& title, const SolidSource& source, FieldOptions options, ThinWalls thin_walls);
 
 /// Prints to stderr what the field does not show, if that is noticed, prefixed by `source`.
 void warnOfLost(const std::string& source, const MeshField& made);
 
-/// Builds the field of a mesh from a file, with a progress bar. Prints the expected cost first if that is more than a
-/// second, and what the field does not show.
+/// The same for the mesh of a file. Prints what the field does not show.
 /// @param made  of the mesh.
-/// @throws std::length_error beyond the monitor's limits, with a setting that would fit, before anything is built.
-DistanceField buildAffordable(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
-                              const FieldOptions& options, ThinWalls thin_walls);
+DistanceField buildFileField(const std::string& file, const TriangleMesh& mesh, MadeSolid& made,
+                             const FieldOptions& options, ThinWalls thin_walls);
 
 }  // namespace sdf_ccd::tools

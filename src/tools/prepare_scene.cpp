@@ -2,16 +2,15 @@
 
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "body/mesh_pool.h"
 #include "commands.h"
 #include "common/number_text.h"
 #include "monitor/over_budget.h"
-#include "monitor/plan/scene_cost.h"
 #include "output_file.h"
 #include "storage/cache_directory.h"
 #include "storage/file_cache.h"
@@ -32,19 +31,21 @@ void printSolids(const Scene& scene) {
     if (!report.solid.empty()) std::cout << report.name << ": " << report.solid << "\n";
 }
 
-void printFiles(const MeshPool& pool, const std::string& directory, const std::string& parameters) {
+void printFiles(const Scene& scene, const std::string& directory, const std::string& parameters) {
+  std::set<std::string> files;
+  for (const BodyReport& report : scene.reports) files.insert(report.files.begin(), report.files.end());
   std::size_t bytes = 0;
-  for (const std::string& file : pool.files()) {
+  for (const std::string& file : files) {
     std::error_code gone;
     bytes += fs::file_size(fs::path(directory) / file, gone);
     if (gone)
       throw std::runtime_error(fmt::format("{}: {} was deleted; a cache keeps {} at most", directory, file,
                                            memoryText(double(FileCache::kMaxBytes))));
   }
-  if (pool.files().empty()) {
+  if (files.empty()) {
     std::cout << "no files: the bodies that are checked need none" << std::endl;
   } else {
-    std::cout << pool.files().size() << " files, " << memoryText(double(bytes))
+    std::cout << files.size() << " files, " << memoryText(double(bytes))
               << "; the monitor loads them with cache_directory: " << directory << parameters << std::endl;
   }
 }
@@ -56,8 +57,7 @@ void prepareScene(const Preparation& preparation, const std::string& directory) 
   options.cache_directory = fs::absolute(directory).lexically_normal().string();
   const OutputDirectory out(directory);  // other users may read it, unlike a private cache
   requireOwnDirectory(options.cache_directory);
-  const ScenePlan plan = affordablePlan(preparation.scene, options);
-  std::cout << "expected         " << summary(*plan.expected) << "\n" << std::flush;
+  const ScenePlan plan = planScene(preparation.scene, planOptions(options));
   const Interrupt interrupt;
   std::shared_ptr<const Scene> scene;
   try {
@@ -73,7 +73,7 @@ void prepareScene(const Preparation& preparation, const std::string& directory) 
   printSolids(*scene);
   const bool is_complete = areAllMade(*scene);
   requireKept(*scene, directory);
-  printFiles(*plan.expected->meshes, options.cache_directory, preparation.parameters);
+  printFiles(*scene, options.cache_directory, preparation.parameters);
   if (!is_complete) throw PartlyDone();
 }
 

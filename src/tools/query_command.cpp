@@ -53,7 +53,7 @@ DistanceField fieldOf(const QueryArguments& arguments) {
   options.band = std::max(options.band, std::abs(arguments.query.sigma));
   const OrientedMesh oriented = orientWithWarning(arguments.mesh, loadMesh(arguments.mesh));
   MadeSolid made;
-  return buildAffordable(arguments.mesh, oriented.mesh, made, options, arguments.resolution.thinWalls());
+  return buildFileField(arguments.mesh, oriented.mesh, made, options, arguments.resolution.thinWalls());
 }
 
 /// Calls `answer` with the index of each segment, on all cores.

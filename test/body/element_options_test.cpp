@@ -48,12 +48,15 @@ TEST(ElementOptions, WhatIsGivenHoldsEverywhere) {
       EXPECT_EQ(shellOptionsFor(options, area, growth).spacing, 0.003);
     EXPECT_EQ(*fieldOptionsFor(options, area).cell_size, 1.2 * 0.003);
   }
-  EXPECT_FALSE(mayShellBeCoarser(options) || mayFieldBeCoarser(options));
-  EXPECT_TRUE(mayShellBeCoarser(optionsForContacts()) && mayFieldBeCoarser(optionsForContacts()));
-  EXPECT_TRUE(mayShellBeCoarser(optionsFor({0.001, {}})) && mayFieldBeCoarser(optionsFor({0.001, {}})));
+  EXPECT_EQ(coarsestShell(options), 1.0);
+  EXPECT_EQ(coarsestField(options), 1.0);
+  EXPECT_GT(std::min(coarsestShell(optionsForContacts()), coarsestField(optionsForContacts())), 100.0);
+  EXPECT_EQ(coarsestShell(optionsFor({0.001, {}})), 2.0);
+  EXPECT_EQ(coarsestField(optionsFor({0.001, {}})), 2.0);
   BodyOptions given = optionsForContacts();
   setFieldResolution({}, given);
-  EXPECT_TRUE(mayShellBeCoarser(given) && !mayFieldBeCoarser(given));
+  EXPECT_GT(coarsestShell(given), 100.0);
+  EXPECT_EQ(coarsestField(given), 1.0);
 }
 
 }  // namespace sdf_ccd::element_options_test

@@ -7,6 +7,7 @@
 #include "field/uniform/sparse_grid.h"
 #include "geometry/trees/triangle_tree.h"
 #include "oracle/box_union.h"
+#include "oracle/failure.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
@@ -262,6 +263,21 @@ TEST(AdaptiveGrid, MemoryLimitIsKept) {
   FieldOptions options = maxError(0.0001);
   options.max_bytes = 100000;
   EXPECT_THROW(buildField(test::torusMesh(0.2, 0.08, 32, 16), options), std::length_error);
+}
+
+TEST(AdaptiveGrid, BeyondTheLimitAnErrorThatFitsIsNamed) {
+  const TriangleMesh torus = test::torusMesh(0.2, 0.08, 128, 64);
+  for (const double max_error : {1e-5, 1e-4}) {
+    FieldOptions options = maxError(max_error);
+    options.max_bytes = buildField(torus, options).bytes() / 3;
+    const std::string refusal = test::failureOf<std::length_error>([&] { buildField(torus, options); });
+    const std::size_t named = refusal.find("; about ");
+    ASSERT_NE(named, std::string::npos) << refusal;
+    options.max_error = std::stod(refusal.substr(named + 8));
+    EXPECT_GT(*options.max_error, max_error) << refusal;
+    EXPECT_LT(*options.max_error, 20.0 * max_error) << refusal;
+    EXPECT_NO_THROW(buildField(torus, options)) << refusal;
+  }
 }
 
 TEST(AdaptiveGrid, FitsALimitOfItsOwnSize) {

@@ -217,19 +217,6 @@ TEST(VoxelMapField, TooManyBytesAreRefused) {
   EXPECT_THROW(buildField(*solid, options), std::length_error);
 }
 
-TEST(VoxelMapField, CostIsExpectedWithinAFactorOfTwo) {
-  SDF_CCD_NEEDS_DATA("octomaps/geb079.bt");
-  double size = 0.0;
-  const auto solid = VoxelSolid::of(loadOctomapSurface(dataPath("octomaps/geb079.bt"), size));
-  ASSERT_TRUE(solid);
-  const FieldOptions options = withCell(0.5 * size, 0.1);
-  const FieldCost cost = expectedCost(*solid, options);
-  const DistanceField field = buildField(*solid, options);
-  EXPECT_LT(cost.bytes, 2.0 * double(field.bytes()));
-  EXPECT_GT(cost.bytes, 0.5 * double(field.bytes()));
-  EXPECT_LT(cost.seconds, 20.0);
-}
-
 /// A cell that differs from an exact part of the voxels' side by what is accepted: over a long map that adds up.
 TEST(VoxelMapField, CellsThatNearlyDivideTheVoxelsAreFittedToThem) {
   const Vector3i count(1500, 2, 2);

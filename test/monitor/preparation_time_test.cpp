@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "common/seconds_since.h"
-#include "monitor/plan/scene_cost.h"
 #include "oracle/busy_machine.h"
 #include "oracle/hostile_meshes.h"
 #include "oracle/scene_case.h"
@@ -29,8 +28,7 @@ void expectOthersAreBuilt(const TriangleMesh& hostile) {
                                       body("twin", meshShape(hostile)), body("box", Primitive(Box{{0.1, 0.1, 0.1}}))},
                                      {}};
   const auto start = std::chrono::steady_clock::now();
-  const ScenePlan plan = affordablePlan(description, limited());
-  const Scene scene = buildScene(description, plan, limited());
+  const Scene scene = buildScene(description, planScene(description, planOptions(limited())), limited());
   EXPECT_LT(secondsSince(start), (kLimit + kSlack) * slowness());
   EXPECT_TRUE(scene.bodies[0].failure.empty()) << scene.bodies[0].failure;
   EXPECT_TRUE(scene.bodies[3].failure.empty()) << scene.bodies[3].failure;

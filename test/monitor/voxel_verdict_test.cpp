@@ -1,7 +1,6 @@
 // Verdicts about voxel maps against exact distances to boxes.
 #include <gtest/gtest.h>
 
-#include "monitor/plan/scene_cost.h"
 #include "monitor/voxel_case.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
@@ -85,7 +84,7 @@ TEST(VoxelVerdict, ABallAmongRandomVoxelsToATenthOfAMillimetre) {
   EXPECT_GT(contact, 100);
 }
 
-TEST(VoxelVerdict, TrianglesAreCountedAndExpected) {
+TEST(VoxelVerdict, TrianglesAreCounted) {
   Voxels hills;
   for (int x = 0; x < 60; ++x)
     for (int y = 0; y < 60; ++y)
@@ -99,14 +98,10 @@ TEST(VoxelVerdict, TrianglesAreCountedAndExpected) {
     faces += double(std::get<std::shared_ptr<const TriangleMesh>>(tile.geometry[0].shape)->triangles.size());
   }
   description.bodies.push_back(body("ball", Primitive(Sphere{0.05})));
-  ScenePlan plan = planScene(description);
-  const SceneCost expected = expectedCost(description, plan, fine());
   double bytes = 0.0;
-  for (const BodyReport& report : buildScene(description, plan, fine()).reports)
+  for (const BodyReport& report : buildScene(description, planScene(description), fine()).reports)
     bytes += double(report.field_bytes + report.shell_bytes);
   EXPECT_GT(bytes, 10.0 * faces);
-  EXPECT_LT(expected.bytes, 2.0 * bytes);
-  EXPECT_GT(expected.bytes, 0.5 * bytes);
 }
 
 TEST(VoxelVerdict, ABallInsideABlockTouchesNoFace) {

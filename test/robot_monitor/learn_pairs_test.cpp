@@ -256,14 +256,14 @@ TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
 }
 
 /// As for a mesh in millimetres: coarser fields and shells took minutes, for less accuracy than was requested.
-TEST(LearnPairs, WhatTheErrorWouldCostIsRefusedBeforeItIsBuilt) {
+TEST(LearnPairs, AnErrorThatNeedsTooMuchMemoryIsRefused) {
   LearnOptions options = coarse();
   options.max_error = 1e-8;
   const std::string failure = test::failureOf<std::length_error>([&] { learn(scissors(), options); });
-  EXPECT_EQ(failure.find("a max_error of 1e-08 m would take "), 0u) << failure;
+  EXPECT_EQ(failure.find("a max_error of 1e-08 m is too small for base: "), 0u) << failure;
 }
 
-/// Also of those that cost nothing here, as their pairs need no test; the cost of others names them.
+/// Also of those that cost nothing here, as their pairs need no test.
 TEST(LearnPairs, AsksWhetherMeshesAreInMillimetres) {
   const auto part = [](const std::string& link, const std::string& file) {
     return "<link name='" + link + "'><collision><geometry><mesh filename='" + file +

@@ -41,39 +41,28 @@ TEST_F(Tool, BuildWritesAFieldAndAShellOfAMesh) {
   EXPECT_LE(loadShell(path("made/ball.shell").string()).covering_radius, 0.05);
 }
 
-TEST_F(Tool, BuildSaysWhatItIsExpectedToTakeAndRefusesTooMuch) {
-  EXPECT_EQ(run("build --mesh ball.off --out made --max-error 0.01").out.find("expected about"), std::string::npos);
-  const ToolRun longer = run("build --mesh ball.off --out made --max-error 2e-5 --spacing 0.05 --threads 1");
-  EXPECT_EQ(longer.exit_code, kDone) << longer.error;
-  const std::size_t expected = longer.out.find("expected about "), built = longer.out.find("ball.field");
-  EXPECT_LT(expected, built) << longer.out;
-  EXPECT_NE(longer.out.find(" s to build; most for ball: "), std::string::npos) << longer.out;
-  const ToolRun refused = run("build --mesh ball.off --out none --max-error 1e-7");
+TEST_F(Tool, BuildRefusesTooMuch) {
+  const ToolRun refused = run("build --mesh ball.off --out none --cell 1e-4");
   EXPECT_EQ(refused.exit_code, kBadInput);
-  EXPECT_EQ(refused.error.find("sdf_ccd: a max_error of 1e-07 m would take about "), 0u) << refused.error;
-  EXPECT_NE(refused.error.find(" would fit\n"), std::string::npos) << refused.error;
-  EXPECT_NE(refused.error.find("; --max-error "), std::string::npos) << refused.error;
+  EXPECT_EQ(refused.error.find("sdf_ccd: field: "), 0u) << refused.error;
+  EXPECT_NE(refused.error.find(" MB with cells of 0.0001 m, more than the "), std::string::npos) << refused.error;
+  EXPECT_NE(refused.error.find(" m would fit\n"), std::string::npos) << refused.error;
+  EXPECT_FALSE(fs::exists(path("none")));
+  // The shell is refused when the field is there.
+  expectRefused("build --mesh ball.off --out none --max-error 0.01 --spacing 1e-5", " needs more than 20000000 points");
+  EXPECT_FALSE(fs::exists(path("none")));
+  expectRefused("build --mesh ball.off --out none --max-error 1e-7 --max-time 0.5",
+                "preparing the mesh takes more than the 0.5 s of --max-time");
   EXPECT_FALSE(fs::exists(path("none")));
 }
 
-TEST_F(Tool, QueryAndInfoSayWhatAFieldIsExpectedToTakeAndRefuseTooMuch) {
-  TriangleMesh nested = test::icosphere(0.5, 3);
-  for (const double radius : {0.44, 0.32}) {
-    nested = merged(std::move(nested), test::flipped(test::icosphere(radius, 3)));
-    nested = merged(std::move(nested), test::icosphere(radius - 0.06, 3));
+TEST_F(Tool, QueryAndInfoRefuseTooMuch) {
+  EXPECT_EQ(run("query --segments in.csv --out out.csv --mesh ball.off --max-error 0.01").out, "");
+  for (const std::string command :
+       {"query --segments in.csv --out no.csv --mesh ball.off", "info --slice z=0 --out no.png ball.off"}) {
+    expectRefused(command + " --cell 1e-4", " m would fit\n");
+    expectRefused(command + " --max-error 1e-7 --max-time 0.5", " takes more than the 0.5 s of --max-time");
   }
-  write("nested.off", test::off(nested));
-  const auto query = [](const std::string& mesh) { return "query --segments in.csv --out out.csv --mesh " + mesh; };
-  const auto info = [](const std::string& mesh) { return "info --slice z=0 --out out.png " + mesh; };
-  EXPECT_EQ(run(query("ball.off --max-error 0.01")).out, "");
-  for (const std::string& command : {query("ball.off --max-error 2e-5"), info("ball.off --max-error 2e-5")}) {
-    const ToolRun longer = run(command);
-    EXPECT_EQ(longer.exit_code, kDone) << longer.error;
-    EXPECT_NE(longer.out.find("expected about "), std::string::npos) << command << ": " << longer.out;
-    EXPECT_NE(longer.out.find(" s to build; most for ball.off: "), std::string::npos) << longer.out;
-  }
-  expectRefused(query("nested.off --max-error 1e-6"), "a max_error of 1e-06 m would take about ");
-  expectRefused(info("nested.off --max-error 1e-6"), " would fit\n");
 }
 
 TEST_F(Tool, InfoTellsWhatFilesHold) {

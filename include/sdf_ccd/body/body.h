@@ -99,6 +99,7 @@ struct BodyReport {
   std::size_t pairs = 0;
   ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow
   std::string solid;  ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
+  std::vector<std::string> files;    ///< names in the cache of its fields and shells, except those of a body before it
   bool is_cache_incomplete = false;  ///< a field or shell was made for the cache but is not in it; a warning says why
   std::vector<std::string> warnings;
 };

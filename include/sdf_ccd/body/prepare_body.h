@@ -58,14 +58,13 @@ struct BodyOptions {
 
   std::optional<double> max_error;  ///< required bound of every verdict [m]; the plan says whether it is met
 
-  /// Time that the estimate of a body's cost and its preparation may take together, at any number of threads [s]. A
-  /// body that takes longer fails, by name, as do bodies of the same meshes; the others are prepared. Infinite: no
-  /// limit.
+  /// Time that preparing a body may take, at any number of threads [s]. A body that takes longer fails, by name, as do
+  /// bodies of the same meshes; the others are prepared. Infinite: no limit.
   double max_preparation_time = std::numeric_limits<double>::infinity();
 
-  /// Whether field, shell and motion_margin are shares of max_error. If they are, or follow the elements' sizes, a
-  /// field or shell that would be too large is made coarser, and its body's report says so; else the body cannot be
-  /// checked.
+  /// Whether field, shell and motion_margin are shares of max_error. If they follow the elements' sizes instead, a
+  /// field or shell that would be too large is made coarser, and its body's report says so; if they are shares, at most
+  /// twice as coarse, beyond which buildScene() fails. Else the body cannot be checked.
   bool divides_max_error = false;
 };
 

@@ -19,8 +19,8 @@ struct FieldOptions {
   /// field has a larger DistanceField::errorBound().
   std::optional<double> max_error;
   double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
-  /// Larger fields are refused, with the cell size that would fit. Building takes up to about twice as much, and a few
-  /// megabytes per thread.
+  /// Larger fields are refused, with the cell size or the error that would fit. Building takes up to about twice as
+  /// much, and a few megabytes per thread.
   std::size_t max_bytes = std::size_t{4} << 30;
 };
 

@@ -46,17 +46,11 @@ struct LeftOut {
   std::string what() const { return kind + (isPair() ? " " : " of ") + name; }  ///< "pair a - b", "shell of map"
 };
 
-struct SceneCost;
-
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
   std::vector<BodyNeeds> needs;  ///< per body; without surfaces, which depend on the fields once these are built
   std::vector<LeftOut> left_out;
-
-  /// Result of expectedCost() for the same scene and options; null if it was not called. With it, buildScene() does not
-  /// prepare the meshes again, and its progress advances evenly.
-  std::shared_ptr<const SceneCost> expected;
 };
 
 /// What a plan depends on besides the scene.
@@ -114,6 +108,8 @@ inline PlanOptions planOptions(const BodyOptions& options) {
 /// Builds, or loads from the cache, what the plan needs; meshes of equal content once. A body whose field or shell
 /// cannot be built keeps its index, with Body::failure set; other bodies are not affected.
 /// @param progress  called with the body's name and the share of all bodies done.
+/// @throws std::invalid_argument if options.max_error is larger than every body; std::length_error if field and shell
+/// are shares of it, and one of them would be too large also at twice max_error; Cancelled.
 Scene buildScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options,
                  const std::function<void(const std::string&, double)>& progress = {});
 

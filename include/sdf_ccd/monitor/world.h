@@ -51,12 +51,10 @@ class WorldEditor {
 
   /// Builds the bodies of a version, as far as the last one does not have them.
   /// @param progress  called with the name of each body that is being built.
-  /// @param announce  called before, with a line about the cost, if that is expected to take over a second.
   /// @throws std::invalid_argument if two bodies share a name, or a new or changed one cannot be built (the message
-  /// names it); std::length_error if its expected cost exceeds what the options allow; Cancelled.
+  /// names it); Cancelled.
   std::shared_ptr<const Parts> prepare(const SceneDescription& description,
-                                       const std::function<void(const std::string&)>& progress = {},
-                                       const std::function<void(const std::string&)>& announce = {}) const;
+                                       const std::function<void(const std::string&)>& progress = {}) const;
 
   /// Makes the next version from bodies that are ready. If it throws, the last version is unchanged.
   /// @return null, and the last version is unchanged, if one is not: `parts` were prepared for another description.

@@ -27,12 +27,11 @@ void BlockBuilder::measureFar(const Block& block, SignedSurface::Nearest last, C
     const int row = i / block.side, layer = row / block.side, x = i % block.side, y = row % block.side;
     const auto flipped = [&](int k, int flips) { return flips % 2 == 0 ? k : block.side - 1 - k; };
     const Vector3i cell = block.low + Vector3i(flipped(x, row), flipped(y, layer), layer);
-    if (!withinGrid(cell) || !taker.begin(CellTaker::kFarCell)) continue;
+    if (!withinGrid(cell)) continue;
     const Vector3d point = center(Block{cell, 1});
     last = surface_.exact().next(point, last, (point - last_point).norm());
     last_point = point;
     taker.takeDistance(index(cell), last.distance);
-    taker.end();
   }
 }
 
@@ -45,15 +44,12 @@ void BlockBuilder::buildNear(const Block& block, const NearTriangles& near, Cell
     if (part.side > 1 && far) {
       measureFar(part, octants.nearest(k), taker);
     } else if (part.side > 1) {
-      if (!taker.begin(CellTaker::kCube)) continue;
       buildNear(part, octants[k], taker);
-      taker.end();
     } else {
       taker.takeDistance(index(part.low), octants.centerDistance(k));
-      if (far || !taker.begin(0)) continue;
+      if (far) continue;
       CellFit fit(octants[k]);
       taker.take(index(part.low), cell(fit, octants[k], 0, taker));
-      taker.end();
     }
   }
 }
@@ -130,11 +126,9 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
       BuiltCell& child = (*built.children)[childIndex(half, k)];
       child.distance = quarters.centerDistance(k);
       if (isFar(child.distance, child_side) || (far && holdsFar(child.distance, depth + 1))) continue;
-      if (!taker.begin(depth + 1)) continue;
       const NearTriangles& child_near = quarters[k];
       CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
       child = cell(child_fit, child_near, depth + 1, taker);
-      taker.end();
     }
   }
   const auto far = [&](const BuiltCell& child) {

@@ -31,21 +31,17 @@ inline int childIndex(int octant, int k) {
   return c.x() + 4 * (c.y() + 4 * c.z());
 }
 
-/// Receives the cells of a builder: stores the top ones, counts all, and may skip cells.
+/// Receives the cells of a builder.
 class CellTaker {
  public:
-  static constexpr int kFarCell = -1, kCube = -2;  ///< instead of a depth; kCube: top cells near the surface
-
   virtual ~CellTaker() = default;
 
   /// Memory of the field [bytes].
   virtual void count(std::size_t bytes) = 0;
-  /// Whether a cell of this depth is wanted. If it is, end() follows when it has been built.
-  virtual bool begin(int /*depth*/) { return true; }
-  virtual void end() {}
-  /// A top cell's distance at its centre, for those that are wanted [m].
-  virtual void takeDistance(std::size_t /*index*/, double /*distance*/) {}
-  virtual void take(std::size_t /*index*/, BuiltCell&& /*cell*/) {}
+  /// A top cell's distance at its centre [m].
+  virtual void takeDistance(std::size_t index, double distance) = 0;
+  /// A top cell near the surface.
+  virtual void take(std::size_t index, BuiltCell&& cell) = 0;
 };
 
 /// Builds the cells of an adaptive grid, in cubes of top cells that share a search for the triangles near them.
@@ -63,8 +59,6 @@ class BlockBuilder {
   Vector3i block(std::size_t i) const { return pointIn(blocks(), i); }
   Vector3d center(const Vector3i& block) const { return center(Block{kSide * block, kSide}); }
   double side() const { return kSide * shape_.cell; }
-  /// Whether all of a block is far, given its centre's distance from the surface [m].
-  bool isFar(double center_distance) const { return isFar(center_distance, side()); }
 
   /// May be called from several threads at once.
   void build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellTaker& taker) const;

@@ -39,6 +39,7 @@ class AdaptiveBuilder {
     return kHalfSqrt3 * shape.unit() + AdaptiveGrid::leafScaleFor(shape.unit(), shape.band).rounding();
   }
 
+  /// @throws std::length_error beyond the limit of bytes.
   void count(std::size_t bytes);
   void buildBlocks(const Progress& progress);
   /// Sets the words of all top cells; those of cells near the surface are replaced later.
@@ -56,7 +57,7 @@ class AdaptiveBuilder {
   std::vector<float> centers_;                            ///< distances at the top cells' centres [top cells]
   std::vector<std::unique_ptr<const BuiltCells>> built_;  ///< by block; null if it is far
   const CancelPoint cancel_;
-  std::atomic<std::size_t> bytes_{0};
+  std::atomic<std::size_t> bytes_{0}, done_{0};  ///< done_: blocks
   AdaptiveData data_;
   std::size_t leaf_count_ = 0;  ///< without those of splits
 };
@@ -80,10 +81,14 @@ class AdaptiveBuilder::BlockTaker : public CellTaker {
 };
 
 void AdaptiveBuilder::count(std::size_t bytes) {
-  if ((bytes_ += bytes) > max_bytes_) {
-    throw std::length_error("field: a maximum error of " + numberText(error_) + " m needs more than the limit of " +
-                            std::to_string(max_bytes_ >> 20) + " MB; choose a larger max_error");
-  }
+  if ((bytes_ += bytes) <= max_bytes_) return;
+  std::string message = "field: a maximum error of " + numberText(error_) + " m needs more than the limit of " +
+                        std::to_string(max_bytes_ >> 20) + " MB";
+  // The blocks that are done are a fair sample, and cells of a curved surface are in inverse proportion to the error.
+  constexpr double kMargin = 1.2;
+  const double times = kMargin * double(blocks_.count()) / double(done_);
+  if (done_ > 0) message += "; about " + shortText(times * error_) + " m would fit";
+  throw std::length_error(message);
 }
 
 void AdaptiveBuilder::buildBlocks(const Progress& progress) {
@@ -106,6 +111,7 @@ void AdaptiveBuilder::buildBlocks(const Progress& progress) {
     BlockTaker taker(*this);
     blocks_.build(blocks_.block(i), nearest[i], taker);
     built_[i] = taker.finish();
+    ++done_;
     counter.add();
   });
 }

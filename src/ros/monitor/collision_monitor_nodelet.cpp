@@ -155,8 +155,7 @@ void CollisionMonitor::setUp() {
 
 void CollisionMonitor::buildFields() {
   const ros::WallTime start = ros::WallTime::now();
-  const ScenePlan plan = affordablePlan(described_.scene, parameters_.scene);
-  NODELET_INFO("Expected cost of building: %s", summary(*plan.expected).c_str());
+  const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
   const std::shared_ptr<const Scene> scene =
       buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
         checkCancelled();

@@ -100,9 +100,7 @@ void SceneEditor::build(Draft& draft) {
     const auto is_tile = [](const BodyDescription& body) { return !body.map.empty(); };
     if (description.has_live_map && std::none_of(description.bodies.begin(), description.bodies.end(), is_tile))
       description.bodies.push_back(awaitedTile(parts_.loop.fixedFrame(), "to come"));
-    draft.parts = editor_->prepare(
-        description, [&](const std::string& body) { draft.making = body; },
-        [](const std::string& cost) { ROS_INFO("The next version of the scene needs %s", cost.c_str()); });
+    draft.parts = editor_->prepare(description, [&](const std::string& body) { draft.making = body; });
   });
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "monitor/plan/scene_cost.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/parameters.h"
 #include "ros/tf/robot_frames.h"

@@ -198,9 +198,7 @@ void run(const CheckBagArguments& arguments) {
   DescribedScene described = describeMonitored(parameters, arguments.config.urdf);
   if (!map_topic.empty()) described.warnings.push_back("nothing is checked against the maps on " + map_topic);
   const RecordedMotion motion(arguments.bag, described, arguments.motion);
-  const ScenePlan plan = affordablePlan(described.scene, parameters.scene);
-  const std::string expected = "expected         " + summary(*plan.expected) + "\n";
-  std::cout << expected << std::flush;
+  const ScenePlan plan = planScene(described.scene, planOptions(parameters.scene));
   CheckFiles files(arguments.out);
   for (const std::string& warning : described.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
   std::shared_ptr<const Scene> scene;
@@ -249,7 +247,7 @@ void run(const CheckBagArguments& arguments) {
       scene->bodies.size(), scene->pairs.size(), described.fixed_frame, statistics.summary(motion.origin()), length,
       durationText(checked.seconds), length / checked.seconds, lasting);
   std::cout << text << std::flush;
-  files.summary.stream() << expected << text;
+  files.summary.stream() << text;
   files.plan.stream() << planText(*scene, warnings);
   files.commit(motion.origin(), "Error and run time of the cycles of " + fs::path(arguments.bag).filename().string());
   if (!is_complete) throw PartlyDone();
