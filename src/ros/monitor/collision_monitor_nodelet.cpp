@@ -11,7 +11,6 @@
 #include "common/number_text.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
-#include "ros/monitor/freed_memory.h"
 #include "ros/monitor/map_distances.h"
 #include "sdf_ccd/common/cancel.h"
 
@@ -46,7 +45,6 @@ CollisionMonitor::~CollisionMonitor() {
   first_world_.reset();
   world_editor_.reset();
   described_ = {};
-  returnFreedMemory();
 }
 
 void CollisionMonitor::onInit() {
@@ -132,7 +130,6 @@ void CollisionMonitor::setUp() {
   watchdog_ = std::make_unique<CycleWatchdog>(CycleWatchdog::Seconds(parameters_.tf.max_latency),
                                               [this](CycleWatchdog::Seconds elapsed) { reportLongCycle(elapsed); });
   listener_ = std::make_unique<TransformListener>(getNodeHandle(), *described_.robot, loop_->history(), trigger_);
-  returnFreedMemory();
   queries_ = std::make_unique<Queries>(first_world_, described_, parameters_, loop_->history());
   queries_->setMarkerPublisher(getPrivateNodeHandle().advertise<visualization_msgs::MarkerArray>("planned", 2));
   const auto wake = [this] { trigger_.wake(); };
