@@ -1,7 +1,7 @@
 # catkin, the messages and catkin_package(): everything that must come before the targets.
 find_package(catkin REQUIRED COMPONENTS
-  diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pluginlib resource_retriever rosbag
-  roscpp roslib sensor_msgs shape_msgs std_msgs std_srvs tf2 tf2_msgs trajectory_msgs visualization_msgs)
+  diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pluginlib rosbag roscpp
+  roslib sensor_msgs shape_msgs std_msgs std_srvs tf2 tf2_msgs trajectory_msgs visualization_msgs)
 
 file(GLOB SDF_CCD_MESSAGES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 file(GLOB SDF_CCD_SERVICES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)

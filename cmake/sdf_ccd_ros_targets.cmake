@@ -1,6 +1,6 @@
 # The ROS layer: the nodelet's library, the node that loads it, launch files.
 file(GLOB SDF_CCD_ROS_SOURCES CONFIGURE_DEPENDS src/ros/*/*.cpp)
-list(FILTER SDF_CCD_ROS_SOURCES EXCLUDE REGEX "(_node|_main)\\.cpp$")
+list(FILTER SDF_CCD_ROS_SOURCES EXCLUDE REGEX "_node\\.cpp$")
 file(GLOB SDF_CCD_NODE_SOURCES CONFIGURE_DEPENDS src/ros/*/*_node.cpp)
 
 if(SDF_CCD_ROS_SOURCES)
@@ -12,13 +12,6 @@ if(SDF_CCD_ROS_SOURCES)
   target_link_libraries(sdf_ccd_ros sdf_ccd_robot sdf_ccd_dynamics fmt::fmt ${catkin_LIBRARIES})
   install(TARGETS sdf_ccd_ros LIBRARY DESTINATION ${SDF_CCD_LIB_DIR})
 endif()
-
-# Fetches meshes over the network, in a process of its own; beside the one that reads them.
-add_executable(sdf_ccd_fetch src/ros/world/fetch_main.cpp)
-target_include_directories(sdf_ccd_fetch SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
-target_link_libraries(sdf_ccd_fetch ${resource_retriever_LIBRARIES})
-add_dependencies(sdf_ccd_ros sdf_ccd_fetch)
-install(TARGETS sdf_ccd_fetch RUNTIME DESTINATION ${SDF_CCD_LIB_DIR}/sdf_ccd)
 
 # The command line tool reads and writes bags where ROS is there.
 file(GLOB SDF_CCD_BAG_SOURCES CONFIGURE_DEPENDS src/tools/ros/*.cpp)

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "sdf_ccd/common/cancel.h"
 
@@ -38,16 +39,6 @@ Descriptor aboveStandard(int number) {
   return high;
 }
 
-std::vector<std::string> environmentOf(const ProgramCall& call) {
-  std::vector<const char*> names = call.variables;
-  names.push_back("LD_LIBRARY_PATH");
-  std::vector<std::string> environment;
-  for (const char* name : names) {
-    if (const char* value = std::getenv(name)) environment.push_back(std::string(name) + "=" + value);
-  }
-  return environment;
-}
-
 /// Null-terminated array of pointers, as for exec(). The strings must outlive it.
 std::vector<char*> pointersTo(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -62,11 +53,7 @@ class SpawnSettings {
   SpawnSettings(int input, int output) {
     ::posix_spawn_file_actions_init(&actions_);
     ::posix_spawnattr_init(&attributes_);
-    if (input >= 0) {
-      ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    } else {
-      ::posix_spawn_file_actions_addclose(&actions_, STDIN_FILENO);
-    }
+    ::posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
     ::posix_spawn_file_actions_addclose(&actions_, STDERR_FILENO);
     sigset_t all, none;
@@ -93,25 +80,26 @@ class SpawnSettings {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline)
+ChildProcess::ChildProcess(const std::string& program, const std::string& argument, const Descriptor& input,
+                           Clock::time_point deadline)
     : deadline_(deadline) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail(call.program + " cannot be started", errno);
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail(program + " cannot be started", errno);
   Descriptor answer(ends[1]);
   output_ = aboveStandard(ends[0]);
   answer = aboveStandard(answer.release());
   ::fcntl(output_.number(), F_SETFL, O_NONBLOCK);
   ::fcntl(output_.number(), F_SETPIPE_SZ, kPipeBytes);  // for fewer reads; the user's quota may refuse it
 
-  std::vector<std::string> words = {call.program}, environment = environmentOf(call);
-  words.insert(words.end(), call.arguments.begin(), call.arguments.end());
+  std::vector<std::string> words = {program, argument}, environment;
+  if (const char* path = std::getenv("LD_LIBRARY_PATH")) environment.push_back(std::string("LD_LIBRARY_PATH=") + path);
   const std::vector<char*> argv = pointersTo(words), envp = pointersTo(environment);
   const SpawnSettings settings(input.number(), answer.number());
   const int error =
-      ::posix_spawn(&pid_, call.program.c_str(), settings.actions(), settings.attributes(), argv.data(), envp.data());
+      ::posix_spawn(&pid_, program.c_str(), settings.actions(), settings.attributes(), argv.data(), envp.data());
   if (error != 0) {
     pid_ = -1;
-    fail(call.program + " cannot be started", error);
+    fail(program + " cannot be started", error);
   }
 }
 

@@ -4,24 +4,17 @@
 
 #include <chrono>
 #include <string>
-#include <vector>
 
 #include "storage/descriptor.h"
 
 namespace sdf_ccd {
 
-/// The program, its arguments and its environment.
-struct ProgramCall {
-  std::string program;
-  std::vector<std::string> arguments;
-  std::vector<const char*> variables = {};  ///< environment variables passed on, beside LD_LIBRARY_PATH
-};
-
 /// A program that reads its stdin and answers on its stdout. The destructor kills it if it still runs.
 ///
 /// Different instances may be used from several threads at once, whatever the host does with SIGCHLD and SIGPIPE: only
 /// this child is waited for, and nothing is written to a pipe. The child gets no other open files, a process group of
-/// its own (so that Ctrl-C reaches only the host), default signal handlers, and no other environment variables.
+/// its own (so that Ctrl-C reaches only the host), default signal handlers, and no environment variable but
+/// LD_LIBRARY_PATH.
 class ChildProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -29,9 +22,10 @@ class ChildProcess {
   /// Thrown when the deadline has passed.
   struct Late {};
 
-  /// @param input  becomes the child's stdin, at its present offset; if not open, the child has no stdin.
+  /// @param input  becomes the child's stdin, at its present offset.
   /// @throws std::runtime_error with the reason if it cannot be started.
-  ChildProcess(const ProgramCall& call, const Descriptor& input, Clock::time_point deadline);
+  ChildProcess(const std::string& program, const std::string& argument, const Descriptor& input,
+               Clock::time_point deadline);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

@@ -1,20 +1,50 @@
 #include "import/read_apart.h"
 
+#include <dlfcn.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "common/number_text.h"
 #include "import/child_process.h"
-#include "import/helper_program.h"
 #include "import/read_answer.h"
 #include "import/read_limits.h"
 #include "import/take_answer.h"
 
 namespace sdf_ccd {
 namespace {
+
+namespace fs = std::filesystem;
+
+fs::path libraryFolder() {
+  static const char anchor = 0;
+  Dl_info info;
+  if (::dladdr(&anchor, &info) == 0 || !info.dli_fname) return {};
+  std::error_code error;
+  return fs::absolute(info.dli_fname, error).parent_path();
+}
+
+// Resolved when the library is loaded: its path may be relative, and the host may change its working directory later.
+const fs::path kLibraryFolder = libraryFolder();
+
+std::string readerProgram() {
+  const char* given = std::getenv("SDF_CCD_READER");
+  if (given && *given) return given;
+  // In the folder `sdf_ccd` beside the library in devel and install spaces alike.
+  for (const fs::path& folder : {kLibraryFolder / "sdf_ccd", kLibraryFolder}) {
+    const std::string program = (folder / "sdf_ccd_read").string();
+    if (::access(program.c_str(), X_OK) == 0 && !fs::is_directory(program)) return program;
+  }
+  throw std::runtime_error("cannot find the helper program sdf_ccd_read in " + (kLibraryFolder / "sdf_ccd").string() +
+                           " or " + kLibraryFolder.string() +
+                           "; set the environment variable SDF_CCD_READER to its path");
+}
 
 std::string stopped(const std::string& why) {
   return "the reader was stopped: it needed more than " + why;
@@ -58,11 +88,10 @@ std::string reasonOf(int status, const ReadLimits& limits) {
 
 ReadMesh readSandboxed(const std::string& format, const std::string& bytes) {
   const ReadLimits limits = limitsOf(format, bytes.size());
-  const std::string program = helperProgram("sdf_ccd_read", "SDF_CCD_READER");
   const Descriptor input = memoryFile(bytes);
   const auto time =
       std::chrono::duration_cast<ChildProcess::Clock::duration>(std::chrono::duration<double>(limits.wall_seconds));
-  ChildProcess child({program, {format}}, input, ChildProcess::Clock::now() + time);
+  ChildProcess child(readerProgram(), format, input, ChildProcess::Clock::now() + time);
   const auto source = [&](char* to, std::size_t size) {
     const std::size_t count = child.read(to, size);
     if (count == 0) throw std::runtime_error(reasonOf(child.wait(), limits));

@@ -110,10 +110,6 @@ fs::path localPath(const std::string& uri, const PackageFinder& packages, const 
     if (!path.is_absolute()) fail(uri, "a file:// URI needs an absolute path");
     return path;
   }
-  if (startsWith(uri, "http://") || startsWith(uri, "https://")) {
-    fail(uri,
-         "http and https are only downloaded if the parameter allow_http is true (sdf_ccd reads it from --config)");
-  }
   const std::size_t scheme = uri.find("://");
   if (scheme != std::string::npos) fail(uri, "scheme " + uri.substr(0, scheme) + ":// is not supported");
   return fs::path(base_directory) / uri;  // an absolute path replaces the base

@@ -76,7 +76,6 @@ TEST(Parameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.refine, defaults.refine);
   EXPECT_EQ(documented.overlapping_pairs, defaults.overlapping_pairs);
   EXPECT_EQ(documented.robot.check_adjacent, defaults.robot.check_adjacent);
-  EXPECT_EQ(documented.allow_http, defaults.allow_http);
   EXPECT_EQ(documented.log_contacts, defaults.log_contacts);
   EXPECT_EQ(documented.live_map.unknown, defaults.live_map.unknown);
   EXPECT_EQ(documented.live_map.unknown_distance, defaults.live_map.unknown_distance);

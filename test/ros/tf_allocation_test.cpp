@@ -118,8 +118,9 @@ class Gripper {
     parameters.scene.shell.spacing = 0.004;
     parameters.scene.exact_depths = true;
     parameters.world = {object("wall", Box{{0.01, 0.3, 0.05}}, 0.146), object("ball", Sphere{0.05}, 1.0)};
-    described_ = describeScene(
-        parameters, makeResourceLoader([](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); }, "", false));
+    const PackageFinder packages = [](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); };
+    described_ =
+        describeScene(parameters, [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
     const auto scene = buildDescribed(described_, plan, parameters.scene, {});
     loop_ = std::make_unique<MonitorLoop>(scene, described_, parameters);

@@ -27,7 +27,7 @@ void setPrimitive(const Primitive& primitive, Marker& marker) {
 }
 
 bool rvizFinds(const std::string& uri) {
-  for (const char* scheme : {"package://", "file://", "http://", "https://"}) {
+  for (const char* scheme : {"package://", "file://"}) {
     if (uri.rfind(scheme, 0) == 0) return uri.rfind(std::string(scheme) + "/", 0) != 0 || scheme[0] == 'f';
   }
   return false;

@@ -119,7 +119,8 @@ void CollisionMonitor::setUp() {
   waitForParameters();
   for (const std::string& name : parameters_.unknown) NODELET_WARN("Ignored, as it is no parameter: %s", name.c_str());
   const std::string directory = std::filesystem::path(parameters_.urdf_file).parent_path().string();
-  described_ = describeScene(parameters_, makeResourceLoader(ros::package::getPath, directory, parameters_.allow_http));
+  described_ = describeScene(
+      parameters_, [&](const std::string& uri) { return loadLocalResource(uri, ros::package::getPath, directory); });
   shareMeshes(described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
   buildFields();

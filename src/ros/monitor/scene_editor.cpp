@@ -75,7 +75,8 @@ SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedSce
                          std::function<void(const CheckedWorld&)> changed)
     : editor_(std::move(editor)),
       parts_(parts),
-      files_(parameters.resource_roots, makeResourceLoader(ros::package::getPath, "", parameters.allow_http)),
+      files_(parameters.resource_roots,
+             [](const std::string& uri) { return loadLocalResource(uri, ros::package::getPath, ""); }),
       request_time_(parameters.request_time),
       wake_(std::move(wake)),
       changed_(std::move(changed)),

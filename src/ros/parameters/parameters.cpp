@@ -193,7 +193,6 @@ MonitorParameters parseParameters(const Setting& tree, const std::string& name) 
     reader.fail("urdf_file", "the absolute path of a file");
   parameters.fixed_frame = withoutLeadingSlash(reader.name("fixed_frame", ""));
   parameters.tf_prefix = withoutLeadingSlash(reader.name("tf_prefix", ""));
-  parameters.allow_http = reader.flag("allow_http", false);
   parameters.robot.check_adjacent = reader.flag("check_adjacent", false);
 
   parameters.pairs = {readRules(reader, "allowed_pairs"), readRules(reader, "checked_pairs")};

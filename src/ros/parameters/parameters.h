@@ -63,7 +63,6 @@ struct MonitorParameters {
   std::string urdf_file;    ///< absolute; meshes with relative names are beside it. Empty: in the working directory
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
-  bool allow_http = false;  ///< whether meshes may be downloaded
   RobotSceneOptions robot;
   PairRules pairs;
   OverlapRule::Kind overlapping_pairs = OverlapRule::Kind::kNeighbours;

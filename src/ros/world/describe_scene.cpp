@@ -6,16 +6,11 @@
 
 #include "common/shown_text.h"
 #include "ros/parameters/world_file.h"
-#include "ros/world/fetch_http.h"
 #include "ros/world/world_bodies.h"
 #include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {
-
-bool isHttp(const std::string& uri) {
-  return uri.rfind("http://", 0) == 0 || uri.rfind("https://", 0) == 0;
-}
 
 /// tf ignores leading slashes.
 void requireOwnFrames(const RobotFrames& frames) {
@@ -29,17 +24,6 @@ void requireOwnFrames(const RobotFrames& frames) {
 }
 
 }  // namespace
-
-ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http) {
-  return [packages, directory, allow_http](const std::string& uri) {
-    if (!allow_http || !isHttp(uri)) return loadLocalResource(uri, packages, directory);
-    try {
-      return Resource{fetchHttp(uri), uri, ""};
-    } catch (const std::exception& error) {
-      throw std::runtime_error(shownText(uri) + ": " + error.what());
-    }
-  };
-}
 
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader) {
   const auto robot = std::make_shared<const RobotModel>(parameters.urdf, parameters.urdf_source);

@@ -27,11 +27,6 @@ struct DescribedScene {
   RobotFrames frames() const { return {*robot, tf_prefix}; }
 };
 
-/// Loads package://, file:// and paths from the disk, and http:// and https:// if they are allowed (fetchHttp()).
-/// @param packages   finds a package's folder.
-/// @param directory  base of relative paths; empty: the working directory.
-ResourceLoader makeResourceLoader(const PackageFinder& packages, const std::string& directory, bool allow_http);
-
 /// Reads URDF, SRDF, world objects and the OctoMap. A link or object whose mesh cannot be read is included, with the
 /// reason in BodyDescription::failure.
 /// @throws std::exception if the URDF or the SRDF cannot be read, two bodies have the same name, or one has a name that

@@ -15,7 +15,7 @@ namespace sdf_ccd {
 class RequestFiles {
  public:
   /// @param roots   folders, which need not exist yet; empty: no file may be named.
-  /// @param loader  of package://, http:// and https://, which need not be below the roots.
+  /// @param loader  of package://, which need not be below the roots.
   RequestFiles(std::vector<std::string> roots, ResourceLoader loader);
 
   /// The file's path, without links. @throws std::runtime_error if it is below none of the roots.

@@ -8,7 +8,8 @@ namespace sdf_ccd::tools {
 
 DescribedScene describeMonitored(const MonitorParameters& parameters, const std::string& urdf) {
   const std::string directory = std::filesystem::absolute(urdf).parent_path().string();
-  return describeScene(parameters, makeResourceLoader(packagesFromEnvironment(), directory, parameters.allow_http));
+  const PackageFinder packages = packagesFromEnvironment();
+  return describeScene(parameters, [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); });
 }
 
 void prepareMonitored(const MonitorConfig& config, const std::string& directory) {
