@@ -33,6 +33,7 @@ fs::path libraryFolder() {
 // Resolved when the library is loaded: its path may be relative, and the host may change its working directory later.
 const fs::path kLibraryFolder = libraryFolder();
 
+/// The program for all formats that need no library.
 std::string readerProgram() {
   const char* given = std::getenv("SDF_CCD_READER");
   if (given && *given) return given;
@@ -91,7 +92,9 @@ ReadMesh readSandboxed(const std::string& format, const std::string& bytes) {
   const Descriptor input = memoryFile(bytes);
   const auto time =
       std::chrono::duration_cast<ChildProcess::Clock::duration>(std::chrono::duration<double>(limits.wall_seconds));
-  ChildProcess child(readerProgram(), format, input, ChildProcess::Clock::now() + time);
+  const bool needs_library = format == "dae" || format == "octomap";
+  ChildProcess child(readerProgram() + (needs_library ? "_with_libraries" : ""), format, input,
+                     ChildProcess::Clock::now() + time);
   const auto source = [&](char* to, std::size_t size) {
     const std::size_t count = child.read(to, size);
     if (count == 0) throw std::runtime_error(reasonOf(child.wait(), limits));

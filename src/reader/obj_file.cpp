@@ -55,22 +55,20 @@ std::string takeLogicalLine(std::string_view& text, std::size_t& line) {
 TriangleMesh parseObj(const std::string& bytes) {
   std::string_view text = bytes;
   TriangleMesh mesh;
-  PolygonList faces;
-  std::vector<std::int64_t> corners;
+  std::vector<std::vector<std::int64_t>> faces;  // of vertices that may come later
   for (std::size_t line = 0; !text.empty();) {
     const std::string whole = takeLogicalLine(text, line);
     std::string_view words = whole;
     const std::string_view keyword = takeWord(words);
     if (keyword == "v") mesh.vertices.push_back(vertexOn(words, line));
     if (keyword != "f") continue;
-    corners.clear();
+    std::vector<std::int64_t>& corners = faces.emplace_back();
     for (std::string_view word = takeWord(words); !word.empty(); word = takeWord(words)) {
       corners.push_back(cornerOf(word, mesh.vertices.size(), line));
     }
     if (corners.size() < 3) fail(line, "a face of " + std::to_string(corners.size()) + " corners");
-    faces.add(corners);
   }
-  faces.appendTo(mesh);
+  for (const std::vector<std::int64_t>& corners : faces) appendPolygon(corners, mesh);
   return mesh;
 }
 

@@ -1,5 +1,8 @@
 #include "mesh_formats.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <stdexcept>
 
 #include "polygon_mesh.h"
@@ -8,42 +11,25 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr std::uint64_t kMaxIndex = std::uint64_t{1} << 32;
-
 struct Counts {
   std::uint64_t vertices = 0, faces = 0;
 };
 
-/// Removes the prefix if the keyword begins with it.
-void takePrefix(std::string_view& keyword, std::string_view prefix) {
-  if (keyword.substr(0, prefix.size()) == prefix) keyword.remove_prefix(prefix.size());
-}
-
-void requirePlainOff(std::string_view keyword, std::string_view rest) {
-  for (const char* prefix : {"ST", "C", "N"}) takePrefix(keyword, prefix);
-  if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF") {
-    throw std::runtime_error("OFF whose vertices have other than three coordinates is not read");
-  }
-  if (keyword != "OFF") throw std::runtime_error("an OFF file begins with \"OFF\" or its counts");
-  if (takeWord(rest) == "BINARY") throw std::runtime_error("binary OFF is not read");
-}
-
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// Takes the keyword `OFF`, which may be missing, and the counts on the same line or the next.
 Counts takeHeader(std::string_view& text, std::size_t bytes) {
-  std::string_view line = takeLine(text);
-  std::string_view rest = line;
-  const std::string_view keyword = takeWord(rest);
-  if (keyword.empty()) throw std::runtime_error("truncated: the OFF header has no counts");
-  if (isDigit(keyword.front())) {
-    rest = line;
-  } else {
-    requirePlainOff(keyword, rest);
+  std::string_view line = takeLine(text), rest = line, keyword = takeWord(rest);
+  if (keyword.empty() || std::isdigit(static_cast<unsigned char>(keyword.front())) == 0) {
+    for (const std::string_view prefix : {"ST", "C", "N"}) {
+      if (keyword.substr(0, prefix.size()) == prefix) keyword.remove_prefix(prefix.size());
+    }
     std::string_view words = rest;
-    if (takeWord(words).empty()) line = rest = takeLine(text);
+    const std::string_view second = takeWord(words);
+    if (keyword != "OFF" || second == "BINARY") {
+      throw std::runtime_error("it does not begin with OFF, as text with vertices of three coordinates does");
+    }
+    if (second.empty()) line = rest = takeLine(text);
+  } else {
+    rest = line;
   }
   Counts counts;
   const std::optional<double> vertices = takeNumber(rest);
@@ -54,27 +40,18 @@ Counts takeHeader(std::string_view& text, std::size_t bytes) {
   return counts;
 }
 
-Vector3d takeVertex(std::string_view line, const Counts& counts, std::uint64_t index) {
-  Vector3d p;
-  for (double& coordinate : p) {
-    const std::optional<double> number = takeNumber(line);
-    if (!number) failTruncated("vertex", counts.vertices, index);
-    coordinate = *number;
-  }
-  return p;
+/// Takes a whole number up to `highest` off the front; -1 if there is none.
+std::int64_t takeIndex(std::string_view& line, double highest) {
+  const double number = takeNumber(line).value_or(-1.0);
+  return number >= 0.0 && number <= highest && number == std::floor(number) ? static_cast<std::int64_t>(number) : -1;
 }
 
 /// Parses the number of corners and the index of each; a colour may follow on the line. @return false if it is invalid.
 bool takeFace(std::string_view line, std::vector<std::int64_t>& corners) {
   corners.clear();
-  const std::optional<std::uint64_t> count = takeCount(line);
-  if (!count || *count > line.size()) return false;
-  for (std::uint64_t i = 0; i < *count; ++i) {
-    const std::optional<std::uint64_t> corner = takeCount(line);
-    if (!corner || *corner > kMaxIndex) return false;
-    corners.push_back(static_cast<std::int64_t>(*corner));
-  }
-  return true;
+  const std::int64_t count = takeIndex(line, static_cast<double>(line.size()));
+  for (std::int64_t i = 0; i < count; ++i) corners.push_back(takeIndex(line, 0x1p32));
+  return count >= 0 && (corners.empty() || *std::min_element(corners.begin(), corners.end()) >= 0);
 }
 
 }  // namespace
@@ -83,14 +60,21 @@ TriangleMesh parseOff(const std::string& bytes) {
   std::string_view text = bytes;
   const Counts counts = takeHeader(text, bytes.size());
   TriangleMesh mesh;
-  for (std::uint64_t i = 0; i < counts.vertices; ++i) mesh.vertices.push_back(takeVertex(takeLine(text), counts, i));
+  for (std::uint64_t i = 0; i < counts.vertices; ++i) {
+    std::string_view line = takeLine(text);
+    Vector3d p;
+    for (double& coordinate : p) {
+      const std::optional<double> number = takeNumber(line);
+      if (!number) failTruncated("vertex", counts.vertices, i);
+      coordinate = *number;
+    }
+    mesh.vertices.push_back(p);
+  }
   std::vector<std::int64_t> corners;
-  PolygonList faces;
   for (std::uint64_t i = 0; i < counts.faces; ++i) {
     if (!takeFace(takeLine(text), corners)) failTruncated("face", counts.faces, i);
-    faces.add(corners);
+    appendPolygon(corners, mesh);
   }
-  faces.appendTo(mesh);
   return mesh;
 }
 

@@ -9,13 +9,11 @@
 namespace sdf_ccd {
 namespace {
 
-TriangleMesh parse(const std::string& bytes, const std::string& format) {
-  if (format == "stl") return parseStl(bytes);
-  if (format == "obj") return parseObj(bytes);
-  if (format == "off") return parseOff(bytes);
-  if (format == "ply") return parsePly(bytes);
-  if (format == "dae") return parseDae(bytes);
-  throw std::runtime_error("a mesh of format \"" + format + "\" is not read; STL, OBJ, OFF, PLY and DAE are");
+TriangleMesh parse(const std::string& text, const std::string& format) {
+  if (format == "stl") return parseStl(text);
+  if (format == "obj") return parseObj(text);
+  if (format == "ply") return parsePly(text);
+  return parseOff(text);
 }
 
 /// Welds vertices that are equal up to the last digits of a float in a mesh of this size, and to a micrometre, as
@@ -41,13 +39,20 @@ TriangleMesh weldedUpToDigits(const TriangleMesh& mesh) {
 
 }  // namespace
 
+TriangleMesh finishedMesh(const TriangleMesh& mesh) {
+  TriangleMesh finished = weldedUpToDigits(mesh);
+  validate(finished);
+  return finished;
+}
+
+std::string withoutByteOrderMark(const std::string& bytes) {
+  constexpr const char* kMark = "\xEF\xBB\xBF";
+  return bytes.rfind(kMark, 0) == 0 ? bytes.substr(3) : bytes;
+}
+
 TriangleMesh parseMeshUnconfined(const std::string& bytes, const std::string& format) {
-  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before a text
-  if (bytes.empty()) throw std::runtime_error("empty");
-  const bool has_mark = bytes.rfind(kByteOrderMark, 0) == 0;
-  TriangleMesh mesh = weldedUpToDigits(has_mark ? parse(bytes.substr(3), format) : parse(bytes, format));
-  validate(mesh);
-  return mesh;
+  const std::string text = withoutByteOrderMark(bytes);
+  return finishedMesh(parse(text, format));
 }
 
 }  // namespace sdf_ccd

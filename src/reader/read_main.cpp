@@ -1,5 +1,6 @@
-// Helper program of the library (import/read_apart.h): sdf_ccd_read FORMAT < FILE. Reads a mesh or an OctoMap from
-// stdin in a confined process, and writes the answer described in import/read_answer.h to stdout.
+// Helper programs of the library (import/read_apart.h): sdf_ccd_read FORMAT < FILE for STL, OBJ, OFF and
+// PLY, sdf_ccd_read_with_libraries for DAE and OctoMaps. They read stdin in a confined process, and write the answer
+// described in import/read_answer.h to stdout.
 
 #include <malloc.h>
 #include <sys/stat.h>
@@ -14,9 +15,13 @@
 
 #include "confine.h"
 #include "import/read_answer.h"
+#include "import/read_apart.h"
 #include "parse_mesh.h"
-#include "parse_octomap.h"
 #include "storage/descriptor.h"
+#ifdef SDF_CCD_READ_WITH_LIBRARIES
+#include "dae_file.h"
+#include "parse_octomap.h"
+#endif
 
 namespace sdf_ccd {
 namespace {
@@ -72,6 +77,15 @@ void takeMemoryInLargePieces() {
   ::mallopt(M_MMAP_THRESHOLD, kMemoryPiece);
 }
 
+ReadMesh parse(const std::string& bytes, const std::string& format, [[maybe_unused]] const ReadLimits& limits) {
+#ifdef SDF_CCD_READ_WITH_LIBRARIES
+  if (format == "octomap") return parseOctomapUnconfined(bytes, limits.memory);
+  return {parseDae(bytes)};
+#else
+  return {parseMeshUnconfined(bytes, format)};
+#endif
+}
+
 void answer(const std::string& format) {
   detachFromHost();
   struct stat input;
@@ -82,8 +96,7 @@ void answer(const std::string& format) {
   confine(limits);
   try {
     const std::string bytes = readInput(static_cast<std::size_t>(input.st_size));
-    sendMesh(format == "octomap" ? parseOctomapUnconfined(bytes, limits.memory)
-                                 : ReadMesh{parseMeshUnconfined(bytes, format)});
+    sendMesh(parse(bytes, format, limits));
   } catch (const std::exception& error) {
     sendReason(error.what());
   }

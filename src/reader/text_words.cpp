@@ -1,7 +1,6 @@
 #include "text_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -40,25 +39,17 @@ std::optional<double> takeNumber(std::string_view& text) {
   return value;
 }
 
-std::optional<std::uint64_t> takeCount(std::string_view& text) {
-  const std::string_view word = takeWord(text);
-  std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-  if (word.empty() || error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return count;
-}
-
-void failTruncated(const std::string& element, std::uint64_t announced, std::uint64_t whole) {
-  throw std::runtime_error("truncated or damaged: " + std::to_string(announced) + " of element " + element +
-                           " are announced, " + std::to_string(whole) + " are whole");
-}
-
 std::uint64_t requireRoom(double count, std::size_t bytes, std::string_view line) {
   if (count >= 0 && count == std::floor(count) && count <= static_cast<double>(bytes)) {
     return static_cast<std::uint64_t>(count);
   }
   throw std::runtime_error("\"" + std::string(line.substr(0, kShown)) + "\" is not a valid count for a file of " +
                            std::to_string(bytes) + " bytes");
+}
+
+void failTruncated(std::string_view element, std::uint64_t announced, std::uint64_t whole) {
+  throw std::runtime_error("truncated or damaged: " + std::to_string(announced) + " of element " +
+                           std::string(element) + " are announced, " + std::to_string(whole) + " are whole");
 }
 
 }  // namespace sdf_ccd

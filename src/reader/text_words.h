@@ -18,14 +18,11 @@ std::string_view takeLine(std::string_view& text);
 /// @param text  a view into a buffer that is terminated by a zero byte, such as a std::string.
 std::optional<double> takeNumber(std::string_view& text);
 
-/// Takes the next word off the front as a non-negative integer. None if it is none, or there is no word.
-std::optional<std::uint64_t> takeCount(std::string_view& text);
-
-/// @throws std::runtime_error always: `announced` elements are announced, but only `whole` of them are complete.
-[[noreturn]] void failTruncated(const std::string& element, std::uint64_t announced, std::uint64_t whole);
-
 /// Returns the count as an integer. @throws std::runtime_error, with the header's line, if it is no non-negative
 /// integer or exceeds the file's size: every element takes at least one byte.
 std::uint64_t requireRoom(double count, std::size_t bytes, std::string_view line);
+
+/// @throws std::runtime_error always: `announced` elements are announced, but only `whole` of them are complete.
+[[noreturn]] void failTruncated(std::string_view element, std::uint64_t announced, std::uint64_t whole);
 
 }  // namespace sdf_ccd

@@ -1,4 +1,5 @@
-// Damaged files, parsed in the test's own process: a crash here would also crash the confined reader.
+// Damaged files, parsed in the test's own process: a crash here would also crash the confined reader. DAE is read by
+// that one, as users read it.
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -12,6 +13,7 @@
 #include "reader/octree_file.h"
 #include "reader/parse_mesh.h"
 #include "reader/parse_octomap.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::damaged_file_test {
 
@@ -36,10 +38,15 @@ std::vector<File> files() {
 
 enum class Outcome { kMesh, kRefused };
 
+/// Of so many attempts on another format, one is made on DAE: it starts a process each time.
+std::size_t oneOf(const File& file) {
+  return file.format == "dae" ? 101 : 1;
+}
+
 /// Parses a file. Whatever its bytes, it must give a valid mesh or an exception with a message.
 Outcome read(const File& file) {
   try {
-    validate(parseMeshUnconfined(file.bytes, file.format));
+    validate(file.format == "dae" ? parseMesh(file.bytes, "a.dae") : parseMeshUnconfined(file.bytes, file.format));
     return Outcome::kMesh;
   } catch (const std::exception& error) {
     EXPECT_NE(std::string(error.what()), "");
@@ -52,7 +59,7 @@ TEST(DamagedFile, CutAnywhere) {
     EXPECT_EQ(read(file), Outcome::kMesh) << file.format;
     int meshes = 0;
     // A text may still be complete without its last bytes.
-    for (std::size_t length = 0; length + 10 < file.bytes.size(); ++length) {
+    for (std::size_t length = 0; length + 10 < file.bytes.size(); length += oneOf(file)) {
       meshes += read({file.format, file.bytes.substr(0, length)}) == Outcome::kMesh;
     }
     if (file.format == "obj") continue;  // OBJ does not announce its number of elements
@@ -65,6 +72,7 @@ TEST(DamagedFile, EveryBitFlipped) {
     File damaged = file;
     for (std::size_t i = 0; i < file.bytes.size(); ++i) {
       for (int bit = 0; bit < 8; ++bit) {
+        if ((8 * i + static_cast<std::size_t>(bit)) % oneOf(file) != 0) continue;
         damaged.bytes[i] = static_cast<char>(file.bytes[i] ^ (1 << bit));
         read(damaged);
       }
@@ -81,7 +89,7 @@ TEST(DamagedFile, NumbersAndWordsReplaced) {
                                           "f",       "\n",         "list",       "element face 4000000",
                                           "9999999", "\\"};
   for (const File& file : files()) {
-    for (int round = 0; round < 4000; ++round) {
+    for (int round = 0; round < 4000 / static_cast<int>(oneOf(file)); ++round) {
       File damaged = file;
       for (int hit = 0; hit < 1 + round % 3; ++hit) {
         const std::size_t at = random() % damaged.bytes.size();

@@ -4,6 +4,7 @@
 #include "oracle/german_locale.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
+#include "reader/dae_file.h"
 #include "reader/octree_file.h"
 #include "reader/parse_mesh.h"
 #include "storage/content_hash.h"
@@ -32,7 +33,7 @@ TEST(ReaderLocale, AMeshIsTheSameInEveryLocale) {
     EXPECT_TRUE(areIdentical(parseMeshUnconfined(bytes, format), plain)) << format;
   }
   const test::GermanLocale german;
-  const TriangleMesh of_dae = parseMeshUnconfined(kDae, "dae");
+  const TriangleMesh of_dae = parseDae(kDae);
   EXPECT_TRUE(boundingBox(of_dae).isApprox(AlignedBox3d(Vector3d(0.0625, 0, 0), Vector3d(0.8125, 0.125, 0))))
       << boundingBox(of_dae).min().transpose() << " to " << boundingBox(of_dae).max().transpose();
 }

@@ -7,10 +7,15 @@
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
 #include "reader/parse_mesh.h"
+#include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::mesh_formats_test {
 
 constexpr double kVolume = 48.0;
+
+TriangleMesh readDae(const std::string& bytes) {
+  return parseMesh(bytes, "a.dae");
+}
 
 TEST(MeshFormats, PolygonsOfAnyNumberOfCorners) {
   for (const int corners : {10, 12, 2000}) {
@@ -135,8 +140,7 @@ TEST(MeshFormats, AsciiStlOfSeveralSolids) {
 
 TEST(MeshFormats, DaeTransformsThatAreNotAffineAreRefused) {
   const auto with = [](const std::string& transform) {
-    return parseMeshUnconfined(
-        test::dae(test::boxMesh({1, 2, 3}), "", "<node>" + transform + test::kDaeInstance + "</node>"), "dae");
+    return readDae(test::dae(test::boxMesh({1, 2, 3}), "", "<node>" + transform + test::kDaeInstance + "</node>"));
   };
   // Looks along -z with y up: only moved.
   EXPECT_TRUE(boundingBox(with("<lookat>4 5 6 4 5 0 0 1 0</lookat>")).center().isApprox(Vector3d(4, 5, 6), 1e-12));
@@ -154,7 +158,7 @@ TEST(MeshFormats, DaePolygonsAndTransforms) {
                                           std::string("<node><matrix>0 -1 0 7 1 0 0 0 0 0 1 0 0 0 0 1</matrix>"
                                                       "<scale>1 1 2</scale>") +
                                               test::kDaeInstance + "</node>");
-  const TriangleMesh turned = parseMeshUnconfined(triangles, "dae");
+  const TriangleMesh turned = readDae(triangles);
   EXPECT_NEAR(signedVolume(turned), 2 * kVolume, 1e-9);
   EXPECT_TRUE(boundingBox(turned).min().isApprox(Vector3d(5, -1, -6), 1e-12)) << boundingBox(turned).min().transpose();
 
@@ -171,15 +175,65 @@ TEST(MeshFormats, DaePolygonsAndTransforms) {
   for (const std::string& primitive :
        {"<polylist count=\"1\">" + input + "<vcount>4</vcount>" + corners + "</polylist>",
         "<polygons count=\"1\">" + input + corners + "</polygons>",
-        "<trifans count=\"1\">" + input + corners + "</trifans>",
         "<tristrips count=\"1\">" + input + "<p>0 0 1 0 3 0 2 0</p></tristrips>"}) {
-    const TriangleMesh mesh = parseMeshUnconfined(with(primitive), "dae");
+    const TriangleMesh mesh = readDae(with(primitive));
     EXPECT_NEAR(surfaceArea(mesh), 1.0, 1e-12) << primitive;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) EXPECT_GT(areaNormal(mesh, static_cast<int>(i)).z(), 0.0);
   }
-  EXPECT_THROW(parseMeshUnconfined(
-                   with("<polylist count=\"1\">" + input + "<vcount>5</vcount>" + corners + "</polylist>"), "dae"),
+  // assimp would leave these out, or read them as others, and say nothing.
+  for (const std::string& primitive :
+       {"<polylist count=\"1\">" + input + "<vcount>5</vcount>" + corners + "</polylist>",
+        "<trifans count=\"1\">" + input + corners + "</trifans>",
+        "<polygons count=\"1\">" + input + "<ph>" + corners + "<h>0 0 1 0 2 0</h></ph></polygons>",
+        "<triangles count=\"1\">" + input + "<p>0 0 -1 0 2 0</p></triangles>",
+        "<triangles>" + input + "<p>0 0 1 0 2 0</p></triangles>"}) {
+    EXPECT_THROW(readDae(with(primitive)), std::runtime_error) << primitive;
+  }
+}
+
+TEST(MeshFormats, DaePartsThatAreMissingAreRefused) {
+  const TriangleMesh box = test::boxMesh({1, 2, 3});
+  const std::string good = std::string("<node>") + test::kDaeInstance + "</node>";
+  for (const char* part :
+       {"<node><instance_geometry url=\"#other\"/></node>", "<node><instance_geometry url=\"other.dae#g\"/></node>",
+        "<node><instance_node url=\"other.dae#n\"/></node>", "<node><instance_node/></node>",
+        "<node id=\"m\"><instance_geometry url=\"#m\"/></node>", "<node><instance_controller url=\"#other\"/></node>",
+        "<node><rotate>1 0 1 90</rotate><instance_geometry url=\"#g\"/></node>",
+        "<node><rotate>0 0 1</rotate><instance_geometry url=\"#g\"/></node>",
+        "<node><skew>45 1 0 0 0 1 0</skew><instance_geometry url=\"#g\"/></node>"}) {
+    EXPECT_NE(test::failureOf([&] { readDae(test::dae(box, "", good + part)); }).find("<"), std::string::npos) << part;
+  }
+  const std::string bytes = test::dae(box, "", good);
+  const std::string third = "<param name=\"Z\"";
+  EXPECT_THROW(readDae(std::string(bytes).replace(bytes.find(third), third.size(), "<param name=\"W\"")),
                std::runtime_error);
+  for (std::size_t length = bytes.find("</p>"); length < bytes.size(); length += 60) {
+    EXPECT_THROW(readDae(bytes.substr(0, length)), std::runtime_error) << length;
+  }
+}
+
+TEST(MeshFormats, WhereFloatsLoseAMeshItIsRefused) {
+  TriangleMesh box = test::boxMesh({0.5, 0.5, 0.5});
+  const auto at = [&](double x) {
+    TriangleMesh moved = box;
+    for (Vector3d& p : moved.vertices) p.x() += x;
+    return test::dae(moved, "", std::string("<node>") + test::kDaeInstance + "</node>");
+  };
+  EXPECT_NEAR(signedVolume(readDae(at(1000.0))), 1.0, 1e-3);
+  EXPECT_NE(test::failureOf([&] { readDae(at(4.5e6)); }).find("too far"), std::string::npos);
+}
+
+TEST(MeshFormats, PlyTextIsReadOnlyIfEveryNumberIsThere) {
+  const std::string good = test::ply(test::boxMesh({1, 2, 3}));
+  const auto damaged = [&](const std::string& from, const std::string& to) {
+    std::string bytes = good;
+    return bytes.replace(bytes.find(from), from.size(), to);
+  };
+  for (const std::string& bytes :
+       {damaged("3 0 ", "3 x "), damaged("3 0 ", "3 0.5 "), damaged("end_header\n-1 ", "end_header\n"),
+        damaged("property float x", "property half x"), damaged("ascii", "text")}) {
+    EXPECT_THROW(parseMeshUnconfined(bytes, "ply"), std::runtime_error) << bytes;
+  }
 }
 
 }  // namespace sdf_ccd::mesh_formats_test

@@ -11,7 +11,9 @@ fail() { echo "installed_layout: $1" >&2; cat "$work/log" >&2; exit 1; }
 # With DESTDIR set, the installation would go elsewhere.
 env -u DESTDIR cmake -DCMAKE_INSTALL_PREFIX="$work/first" -P "$build/cmake_install.cmake" > "$work/log" 2>&1 || fail "no install"
 mv "$work/first" "$work/moved"
-[ -x "$work/moved/$lib/sdf_ccd/sdf_ccd_read" ] || fail "the reader is not in $lib/sdf_ccd"
+for reader in sdf_ccd_read sdf_ccd_read_with_libraries; do
+  [ -x "$work/moved/$lib/sdf_ccd/$reader" ] || fail "$reader is not in $lib/sdf_ccd"
+done
 tool=$work/moved/$bin/sdf_ccd
 export LD_LIBRARY_PATH=$work/moved/$lib:${LD_LIBRARY_PATH:-}
 

@@ -113,7 +113,7 @@ class Bench:
     def is_reader(self, pid):
         try:
             exe = os.readlink('/proc/%s/exe' % pid)
-            return os.path.realpath(exe) == os.path.realpath(os.path.join(self.binaries, 'sdf_ccd_read'))
+            return os.path.realpath(exe).startswith(os.path.realpath(os.path.join(self.binaries, 'sdf_ccd_read')))
         except OSError:
             return False
 

@@ -7,17 +7,20 @@
 namespace sdf_ccd {
 
 /// Reads a mesh: STL (binary also when it begins with `solid`; text), OBJ, OFF, PLY and DAE, by the name's ending.
-/// Polygons are triangulated, lines and points ignored; vertices equal up to 2^-24 of the longest side are welded.
+/// Polygons are triangulated, lines and points ignored; vertices equal up to 2^-24 of the longest side are welded. DAE
+/// is read by assimp, which has the digits of a float; where these would move a vertex by more than 0.1 mm, because the
+/// mesh is far from its origin, it is refused.
 ///
-/// Each mesh is read in a process of its own, by the program sdf_ccd_read, so that a file that makes the reader crash,
-/// hang or exhaust memory only causes an error here. The process has no access to files or the network, at most 512 MiB
-/// of memory plus 32 times the file's size (never more than three quarters of the computer's), 5 s of processor time
-/// plus 1 s per MiB, and six times that of wall-clock time. It adds some 2 ms to the reading. The program is searched
-/// in lib/sdf_ccd beside the library, or at the path in the environment variable SDF_CCD_READER; without it no mesh can
-/// be read.
+/// Each mesh is read in a process of its own, so that a file that makes the reader crash, hang or exhaust memory only
+/// causes an error here. The process has no access to files or the network, at most 512 MiB of memory plus 32 times the
+/// file's size (never more than three quarters of the computer's), 5 s of processor time plus 1 s per MiB, and six
+/// times that of wall-clock time. It adds some 4 ms to the reading, that of DAE 20 ms. The programs, sdf_ccd_read and
+/// sdf_ccd_read_with_libraries, are searched in lib/sdf_ccd beside the library, or at the path in the environment
+/// variable SDF_CCD_READER; without them no mesh can be read.
 ///
 /// A DAE mesh is placed as rviz draws it: `<unit meter="…">` is applied, the file's up-axis is not. The material
-/// library of an OBJ file is not opened. Not supported: COLLADA's `<convex_mesh>` and `.zae`, binary OFF.
+/// library of an OBJ file is not opened. Not supported: COLLADA's `<convex_mesh>`, `<trifans>`, `<skew>`, polygons with
+/// holes, turns about an axis that has not length 1, and `.zae`; binary OFF.
 /// @param bytes  the whole file's content.
 /// @param name   the file's name; its ending chooses the format, and it appears in errors.
 /// @return triangles [m], in the file's frame; every triangle with finite corners.
