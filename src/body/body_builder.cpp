@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 
 #include "body/body_shell.h"
@@ -159,14 +160,19 @@ class BodyBuilder {
   std::string warning_;
 };
 
-/// The hull of the shell's points, where the surface is not curved, contains the surface: no location is farther from
-/// one of them than the covering radius (edges alone have none; there the corners span the surface).
-BoundingBall surfaceBall(const Body& body) {
-  if (body.shell->size() == 0) return motionBall(body);
-  BoundingBall ball = boundingBall(body.shell);
-  const double covering = body.shell->covering_radius;
-  ball.radius += std::isfinite(covering) ? covering : body.shell->position_error;
-  return ball;
+std::vector<BodyHalfSpace> halfSpacesOf(const BodyDescription& description) {
+  std::vector<BodyHalfSpace> found;
+  for (const GeometryDescription& geometry : description.geometry) {
+    if (!isHalfSpace(geometry)) continue;
+    const DistanceField exact(std::get<Primitive>(geometry.shape));  // normalised
+    const auto& half_space = std::get<HalfSpace>(*exact.primitive());
+    const Vector3d& origin = geometry.X_BG.translation();
+    const Vector3d normal = (geometry.X_BG.linear() * half_space.normal).normalized();
+    const double rounding =
+        16.0 * std::numeric_limits<double>::epsilon() * (std::abs(half_space.offset) + origin.norm());
+    found.push_back({{normal, half_space.offset + normal.dot(origin)}, rounding});
+  }
+  return found;
 }
 
 void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progress, Body& body, BodyReport& report) {
@@ -180,7 +186,6 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   if (needs.shell) shell = builder.makeShell(body.parts);
   if (needs.shell) body.tree = buildSphereTree(shell);
   body.shell = std::move(shell);
-  body.ball = surfaceBall(body);
   if (!needs.shell) return;
   report.shell_points = body.shell->size();
   report.shell_bytes = bytesOf(body.shell, body.tree);
@@ -224,6 +229,7 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
       requirePose(description.X_frame_B, "the body's pose in its frame");
       for (const GeometryDescription& geometry : description.geometry)
         requirePose(geometry.X_BG, "the pose of " + geometry.source);
+      body.half_spaces = halfSpacesOf(description);
       build(needs, BodyBuilder(description, options, pool, built.report), progress, body, built.report);
     } catch (const std::exception& error) {
       body.failure = error.what();

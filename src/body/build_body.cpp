@@ -1,5 +1,6 @@
 #include "body/build_body.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -49,6 +50,24 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   return key;
 }
 
+/// Contains the body's elements; see kHalfSpaceRadius.
+BoundingBall ballOf(const Body& body) {
+  BoundingBall ball;
+  if (body.triangles) {
+    ball = body.triangles->tree.ball();
+    ball.radius += std::max(body.triangles->deviation, body.shell->position_error);  // of points that are rounded
+  } else {
+    AlignedBox3d box_B;
+    for (const BodyPart& part : body.parts) {
+      const AlignedBox3d& box_G = part.field.surfaceBox();
+      if (box_G.sizes().allFinite()) box_B.extend(box_G.transformed(part.X_BG));
+    }
+    if (!box_B.isEmpty()) ball = {box_B.center(), 0.5 * box_B.diagonal().norm()};
+  }
+  if (body.half_spaces.empty()) return ball;
+  return {Vector3d::Zero(), std::max(kHalfSpaceRadius, ball.center.norm() + ball.radius)};
+}
+
 /// As buildBody(), but for the limit of time.
 BuiltBody buildInAnyTime(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                          MeshPool& pool, const Progress& progress) {
@@ -69,6 +88,7 @@ BuiltBody buildInAnyTime(const BodyDescription& description, const BodyNeeds& ne
   if (needs.triangles) mine.body.triangles = trianglesOf(description, pool);
   if (mine.body.triangles && !was_known) mine.report.shell_bytes += mine.body.triangles->bytes();
   if (needs.surface) mine.body.surface = surfaceOf(description, pool);
+  mine.body.ball = ballOf(mine.body);
   return mine;
 }
 

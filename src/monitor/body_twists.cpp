@@ -114,7 +114,7 @@ BodyTwists::BodyTwists(const Scene& scene)
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) ++pairs[static_cast<std::size_t>(body)];
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    is_open_[b] = !ballContainsBody(scene.bodies[b]);
+    is_open_[b] = !scene.bodies[b].half_spaces.empty();
     lose(b);
     if (pairs[b] > 0) paired_in_[slots_[b]] = static_cast<std::ptrdiff_t>(b);
     if (pairs[b] == 0 || !scene.bodies[b].failure.empty()) continue;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "body/union_depth.h"
-#include "body_half_space.h"
 #include "motion/time_at.h"
 #include "pair_bound.h"
 #include "pair_result.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
 
 bool canBeMeasured(const Body& body) {
-  return hasHalfSpace(body) || (body.triangles && !body.triangles->solids.empty());
+  return !body.half_spaces.empty() || (body.triangles && !body.triangles->solids.empty());
 }
 
 /// Empty if no pair needs the body's fields.

@@ -121,7 +121,7 @@ CycleResult ResultJoiner::result() const {
     const double reach = std::max(known_[i].reach, pair.refined ? known_[i].near : 0.0);
     pair.deepest.depth_error = std::max(pair.deepest.depth_error, reach - pair.deepest.depth);
     keepHighest(pair);
-    if (pair.verdict != Verdict::kNotChecked) pair.reason.clear();
+    if (pair.verdict != Verdict::kNotChecked && !pair.on_a_W.force.hasNaN()) pair.reason.clear();
     pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;
     pair.on_b_W = 1.0 / ends_.times[1] * pair.on_b_W;
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "body_half_space.h"
 #include "shell/contact_gap.h"
 
 namespace sdf_ccd {
@@ -43,7 +42,7 @@ ErrorBound contactBound(const Scene& scene, const PlannedPair& pair) {
 
 bool haveSurfaces(const Body& a, const Body& b) {
   const auto isAgainst = [](const Body& f, const Body& p) {
-    return p.triangles && !hasHalfSpace(p) && (f.triangles || hasHalfSpace(f));
+    return p.triangles && p.half_spaces.empty() && (f.triangles || !f.half_spaces.empty());
   };
   return isAgainst(a, b) || isAgainst(b, a);
 }
@@ -65,7 +64,7 @@ double greatestDepth(const Body& body) {
 
 double hiddenDepth(const Scene& scene, const PlannedPair& pair) {
   const auto depth = [&](int surface, int solid, bool has_shell) {
-    if (hasHalfSpace(scene.bodies[surface])) return 0.0;  // only the other body's depth in it counts
+    if (!scene.bodies[surface].half_spaces.empty()) return 0.0;  // only the other body's depth in it counts
     const PointShell& shell = *scene.bodies[surface].shell;
     const bool covers = has_shell && shell.size() > 0 && !scene.bodies[solid].parts.empty();
     const double deepest = greatestDepth(scene.bodies[solid]);

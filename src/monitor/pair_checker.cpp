@@ -16,6 +16,13 @@ namespace {
 constexpr double kStill = 1e-9;          // bodies rest if they move less relative to each other, by rounding [m]
 constexpr double kRootTolerance = 1e-9;  // relative to the path; guaranteed by segmentIntervals()
 
+/// Of a pair in contact.
+std::string whyNoForce(const Body& a, const Body& b) {
+  for (const Body* body : {&a, &b})
+    if (body->forces != Forces::kKnown) return "no force: " + body->name + ": " + whyNoForces(body->forces);
+  return "no force: neither body has a shell";
+}
+
 void requireFinite(const ErrorBound& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
@@ -29,10 +36,12 @@ PairChecker::PairChecker(const Scene& scene, const PlannedPair& pair,
       body_data_(body_data),
       options_(options),
       resting_(scene.resting.get()),
-      balls_contain_bodies_(ballContainsBody(scene.bodies[pair.body_a]) && ballContainsBody(scene.bodies[pair.body_b])),
+      balls_contain_bodies_(scene.bodies[pair.body_a].half_spaces.empty() &&
+                            scene.bodies[pair.body_b].half_spaces.empty()),
       roles_(scene, pair),
       contact_bound_(contactBound(scene, pair)) {
   if (haveSurfaces(scene, pair)) surfaces_.emplace(scene, pair, 0.5 * options.max_error);
+  if (roles_.empty()) why_no_force_ = whyNoForce(scene.bodies[pair.body_a], scene.bodies[pair.body_b]);
   if (surfaces_ && ContactRefinement::isPossible(scene, pair))
     refinement_.emplace(scene, pair, surfaces_->resolution());
 }
@@ -194,6 +203,10 @@ void PairChecker::describe(const CycleMotion& motion, const SweptBodies& bodies,
     if (request.refine == Refinement::kDeepest && refinement_ && !result.intervals.empty())
       refinement_->run(bodies, *surfaces_, result.error.chord, memory_->refinement, result);
     surfaceContacts(result).completePeaks();
+    if (request.wrenches && roles_.empty() && !result.intervals.empty()) {
+      setWrenchesUnknown(result);
+      result.reason = why_no_force_;
+    }
   } catch (const Cancelled&) {
     result.incomplete = true;
     result.reason = "incomplete: the cycle's time was used up before the contact was measured on triangles";

@@ -138,6 +138,7 @@ class PairChecker {
   PairRoles roles_;
   std::optional<SurfacePair> surfaces_;          // none: the pair cannot be checked
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
+  std::string why_no_force_;                     // empty if there are forces
   ErrorBound contact_bound_;                     // of field and gap
 
   // At the last cycle's end:

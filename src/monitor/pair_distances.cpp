@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "body/body_triangles.h"
-#include "monitor/body_half_space.h"
 #include "monitor/contact_tracker.h"
 #include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
@@ -38,9 +37,7 @@ double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometr
 }  // namespace
 
 PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
-    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {
-  for (const Body& body : scene_->bodies) half_spaces_.push_back(halfSpacesOf(body));
-}
+    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
 
 void PairDistances::forget() {
   if (is_empty_) return;
@@ -137,7 +134,7 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
       found.normal_W = result.deepest.normal_W;
     }
   } else {
-    pair.is_known = ballContainsBody(scene_->bodies[result.body_b]);  // stored for isFar(), which moves body B's ball
+    pair.is_known = scene_->bodies[result.body_b].half_spaces.empty();  // stored for isFar(), which moves body B's ball
     pair.at_least = is_within ? found.distance - found.error : range;
     pair.X_FP = X_AB;
     if (!is_within) return;
@@ -159,8 +156,8 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
   const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
   bool is_within = false;
   if (a.triangles && b.triangles) is_within = nearestOfSurfaces(i, X_WA, X_WB, range, found);
-  const bool plane_is_a = hasHalfSpace(a);
-  for (const BodyHalfSpace& plane : half_spaces_[static_cast<std::size_t>(plane_is_a ? pair.body_a : pair.body_b)]) {
+  const bool plane_is_a = !a.half_spaces.empty();
+  for (const BodyHalfSpace& plane : (plane_is_a ? a : b).half_spaces) {
     PairDistance of_plane = found;
     of_plane.slab.reset();
     if (!(plane_is_a ? nearestOfPlane(i, true, plane, X_WA, X_WB, range, of_plane)
@@ -253,7 +250,7 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
 
 /// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.
 PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
-  const bool f_is_a = ballContainsBody(scene_->bodies[body_b]);
+  const bool f_is_a = scene_->bodies[body_b].half_spaces.empty();
   const int f = f_is_a ? body_a : body_b, p = f_is_a ? body_b : body_a;
   const auto X_FP = [&](std::size_t k) { return relativePose(motion.pose(f, k), motion.pose(p, k)); };
   return {f_is_a, X_FP(last - 1), X_FP(last), scene_->bodies[p].ball};

@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "body_half_space.h"
 #include "query/surfaces/separation.h"
 #include "query/surfaces/surface_distance.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -119,7 +118,6 @@ class PairDistances {
                  PairDistance& found) const;
 
   std::shared_ptr<const Scene> scene_;
-  std::vector<std::vector<BodyHalfSpace>> half_spaces_;  // per body
   std::vector<Pair> pairs_;
   std::vector<PairDistance> near_;
   std::chrono::nanoseconds origin_{0};  // of the last cycle

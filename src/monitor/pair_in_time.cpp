@@ -72,9 +72,7 @@ void PairChecker::setIncomplete(const ContactPoint& proof, const CycleMotion& mo
   result.intervals.push_back({motion.times[result.span.first], motion.times[result.span.last]});
   result.deepest = proof;
   result.deepest.depth_error = std::max(proof.depth_error, greatestDepthOfContact() - proof.depth);
-  if (!request.wrenches) return;
-  for (Wrench* wrench : {&result.on_a_W, &result.on_b_W})
-    wrench->force = wrench->torque = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  if (request.wrenches) setWrenchesUnknown(result);
 }
 
 /// Upper bound of the depth of any point of one body in the other, at any time of the motion [m].

@@ -1,5 +1,6 @@
 #include "pair_result.h"
 
+#include <limits>
 #include <tuple>
 
 namespace sdf_ccd {
@@ -30,6 +31,11 @@ void setSkipped(const ErrorBound& error, PairResult& result) {
 
 bool isTimed(const PairResult& pair) {
   return !pair.incomplete || !pair.on_a_W.force.hasNaN();
+}
+
+void setWrenchesUnknown(PairResult& result) {
+  for (Wrench* wrench : {&result.on_a_W, &result.on_b_W})
+    wrench->force = wrench->torque = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 bool isWithin(const ContactPoint& point, const Interval& interval) {

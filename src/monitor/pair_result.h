@@ -16,6 +16,8 @@ void setSkipped(const ErrorBound& error, PairResult& result);
 /// Whether the pair's intervals and wrenches are known: they are not if an incomplete contact is only proved.
 bool isTimed(const PairResult& pair);
 
+void setWrenchesUnknown(PairResult& result);
+
 /// Whether a point is deepest within the interval.
 bool isWithin(const ContactPoint& point, const Interval& interval);
 

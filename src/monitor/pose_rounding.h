@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
 #include "sdf_ccd/body/body.h"
@@ -25,12 +24,6 @@ inline double poseDefect(const Isometry3d& X_WB) {
 /// Rounding error of the pose's translation [m].
 inline double poseRounding(const Isometry3d& X_WB) {
   return kPoseRoundings * kPoseEpsilon * X_WB.translation().norm();
-}
-
-/// Whether the body's ball contains all of it; false for a body with a half-space.
-inline bool ballContainsBody(const Body& body) {
-  return std::all_of(body.parts.begin(), body.parts.end(),
-                     [](const BodyPart& part) { return part.field.surfaceBox().sizes().allFinite(); });
 }
 
 }  // namespace sdf_ccd

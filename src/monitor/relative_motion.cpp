@@ -7,7 +7,7 @@
 namespace sdf_ccd {
 
 RelativeMotion::RelativeMotion(const Scene& scene, int f, int p)
-    : ball_(&scene.bodies[p].ball), is_f_in_ball_(ballContainsBody(scene.bodies[f])), f_(f), p_(p) {}
+    : ball_(&scene.bodies[p].ball), is_f_in_ball_(scene.bodies[f].half_spaces.empty()), f_(f), p_(p) {}
 
 void RelativeMotion::take(const SweptBodies& bodies, const WaypointSpan& span,
                           std::vector<RelativeMotionBounds>& bounds) {

@@ -123,6 +123,7 @@ void setResting(const RestingAnswer& answer, const SweptBodies& bodies, double e
     return point;
   };
   result.verdict = known.verdict;
+  result.reason = known.reason;
   result.error = known.error;
   // Depths are those of the pose itself, whatever its error was.
   result.error.chord = std::max(error, known.error.chord + error + RestingAnswers::kMoved - answer.error);

@@ -57,7 +57,8 @@ bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d
 
 /// Whether the first of two bodies is body F.
 bool isFirstF(const Body& a, const Body& b) {
-  return hasHalfSpace(a) || hasHalfSpace(b) ? hasHalfSpace(a) : a.ball.radius >= b.ball.radius;
+  if (a.half_spaces.empty() && b.half_spaces.empty()) return a.ball.radius >= b.ball.radius;
+  return !a.half_spaces.empty();
 }
 
 /// Calls visit(centroid) for triangles of the tree that may come within the ball, until it returns true.
@@ -119,7 +120,7 @@ SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double res
       shell_(&scene.bodies[motion_.p()]),
       deviation_(deviationOf(scene, pair)),
       resolution_(resolution),
-      planes_(halfSpacesOf(*field_)) {
+      planes_(field_->half_spaces) {
   double of_planes = 0.0;
   for (const BodyHalfSpace& plane : planes_) of_planes = std::max(of_planes, plane.deviation);
   deviation_ += of_planes;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "body/body_triangles.h"
-#include "body_half_space.h"
 #include "query/surfaces/separation.h"
 #include "relative_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
@@ -117,9 +116,9 @@ class SurfacePair {
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one, or F the half-space
   double deviation_;
   double resolution_;
-  std::vector<BodyHalfSpace> planes_;  // of F
-  int poses_left_ = 0;                 // that may be tested against a half-space in this motion
-  bool found_plane_ = false;           // the last crossing is with a half-space
+  const std::vector<BodyHalfSpace>& planes_;  // of F
+  int poses_left_ = 0;                        // that may be tested against a half-space in this motion
+  bool found_plane_ = false;                  // the last crossing is with a half-space
   SeparationWitness witness_, closed_witness_;
 };
 

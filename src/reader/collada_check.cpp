@@ -108,7 +108,8 @@ class Inspector : public tinyxml2::XMLVisitor {
   }
 
  private:
-  /// Nodes below one, each instance for itself, as assimp makes them. @param below  known ones; negative: being counted.
+  /// Nodes below one, each instance for itself, as assimp makes them. @param below  known ones; negative: being
+  /// counted.
   double countNodes(const XMLElement& node, std::map<const XMLElement*, double>& below) const {
     constexpr double kMost = 1e5;
     const auto [known, is_new] = below.emplace(&node, -1.0);
@@ -148,7 +149,7 @@ class Inspector : public tinyxml2::XMLVisitor {
   std::set<std::string> targets_, positions_;
   std::vector<const XMLElement*> instances_, accessors_, scenes_;
   std::map<std::string, const XMLElement*> nodes_;  // by "#" and their id
-  std::map<std::string, double> lengths_;  // announced numbers of arrays, which assimp requires to be there
+  std::map<std::string, double> lengths_;           // announced numbers of arrays, which assimp requires to be there
 };
 
 }  // namespace

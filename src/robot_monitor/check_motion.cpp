@@ -226,7 +226,7 @@ PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {
   PlannedBodies planned;
   for (const Body& body : scene.bodies) {
     const int link = robot.find(body.frame);
-    planned.bodies.push_back({link, body.X_frame_B, motionBall(body)});
+    planned.bodies.push_back({link, body.X_frame_B, body.ball});
     planned.missing.push_back(link >= 0 ? ""
                                         : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
   }

@@ -101,7 +101,7 @@ PairMotion ChainPair::truth(const Duel& duel) const {
 
 void ChainPair::play(Duel& duel, Tally& tally) const {
   std::vector<BoundingBall> balls;
-  for (const Body& body : duel.scene().bodies) balls.push_back(motionBall(body));
+  for (const Body& body : duel.scene().bodies) balls.push_back(body.ball);
   const MotionSource source{
       [&](double time, std::vector<Isometry3d>& X_WB) {
         X_WB = {rounded(pose(joints_[0], time)), rounded(pose(joints_[1], time))};

@@ -268,8 +268,10 @@ TEST(CycleTimeOfTwo, WhatIsLeftOnAHalfSpaceKnowsHowFarThatMayStray) {
 /// Two balls of many triangles that roll on each other, hardly apart, and two beads that are tested before them. The
 /// search for the balls' verdict ends with the time of each cycle that has too little of it.
 TEST(CycleTimeOfTwo, ALongSearchEndsInTime) {
-  const auto scene = build({body("bead", Primitive(Sphere{0.01})), body("other", Primitive(Sphere{0.01})),
-                            body("a", meshShape(icosphere(0.2, 5))), body("b", meshShape(icosphere(0.2, 5)))},
+  BodyDescription a = body("a", meshShape(icosphere(0.2, 5)));  // the ball around it says little
+  a.geometry.push_back({Primitive(Sphere{0.01}), translation({-0.4, 0.0, 0.0}), "bead"});
+  const auto scene = build({body("bead", Primitive(Sphere{0.01})), body("other", Primitive(Sphere{0.01})), a,
+                            body("b", meshShape(icosphere(0.2, 5)))},
                            fine(0.008));
   constexpr std::size_t kWaypoints = 40;
   std::vector<Isometry3d> rolling;

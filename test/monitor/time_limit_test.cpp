@@ -29,8 +29,11 @@ CycleMotion shaken(double distance, std::size_t waypoints) {
   return cycle(1.0, {still(Isometry3d::Identity(), waypoints), X_WB});
 }
 
+/// The first has a bead on its far side, so that the ball around it says little.
 std::shared_ptr<const Scene> twoBalls(double spacing) {
-  return build({body("a", meshShape(icosphere(0.2, 4))), body("b", meshShape(icosphere(0.2, 4)))}, fine(spacing));
+  BodyDescription a = body("a", meshShape(icosphere(0.2, 4)));
+  a.geometry.push_back({Primitive(Sphere{0.01}), translation({-0.4, 0.0, 0.0}), "bead"});
+  return build({a, body("b", meshShape(icosphere(0.2, 4)))}, fine(spacing));
 }
 
 CycleRequest limited(double seconds = kLimit) {

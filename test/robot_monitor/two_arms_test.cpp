@@ -37,7 +37,7 @@ class TwoArmsTest : public ::testing::Test {
     monitor_ = std::make_unique<Monitor>(scene_, MonitorOptions());
     for (const Body& body : scene_->bodies) {
       const auto link = std::find(robot_.links().begin(), robot_.links().end(), body.name) - robot_.links().begin();
-      bodies_.push_back({static_cast<int>(link), Isometry3d::Identity(), motionBall(body)});
+      bodies_.push_back({static_cast<int>(link), Isometry3d::Identity(), body.ball});
       balls_.push_back(bodies_.back().ball_B);
     }
   }

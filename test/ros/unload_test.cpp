@@ -163,8 +163,14 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
     monitor.setParam("tf_prefix", name.substr(1, name.find('/', 1) - 1));
     ASSERT_TRUE(loader_.load(name, "sdf_ccd/CollisionMonitor", {}, {}));
     std::unique_lock<std::mutex> lock(mutex_);
-    ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(60),
-                                  [&] { return plans.count(name) > 0 && frames.count(name) > 0; }));
+    const auto has_all = [&] {
+      const std::vector<std::string>& reasons = plans[name].part_reasons;
+      const bool awaits_forces = std::any_of(reasons.begin(), reasons.end(), [](const std::string& reason) {
+        return reason.find("being built") != std::string::npos;
+      });
+      return !plans[name].names.empty() && !awaits_forces && frames.count(name) > 0;
+    };
+    ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(60), has_all));
     lock.unlock();
     ::malloc_trim(0);
     memory.push_back(allocatedMemory());

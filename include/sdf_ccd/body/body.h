@@ -59,6 +59,12 @@ struct BodyPart {
 /// else that the body has.
 constexpr double kHalfSpaceRadius = 10.0;
 
+/// A body's half-space, in the body's frame.
+struct BodyHalfSpace {
+  HalfSpace half_space;
+  double deviation;  ///< upper bound of its displacement by rounding [m]
+};
+
 /// A body that is ready to be checked.
 struct Body : BodyPlace {
   std::string warning;            ///< about the inside of its meshes (see warningOf()); empty if there is none
@@ -67,6 +73,7 @@ struct Body : BodyPlace {
   SharedValue<SphereTree> tree;
   std::shared_ptr<const BodySurface> surface;      ///< for voxels of a live map that are those of the body; else null
   std::shared_ptr<const BodyTriangles> triangles;  ///< of its bounded elements, which decide verdicts
+  std::vector<BodyHalfSpace> half_spaces;          ///< its unbounded elements, which do so, too
   /// All bounded geometry of a body with a mesh whose sign is not trusted (MeshQuality::sign_trusted), with caps in
   /// openings and boxes around primitives, frame B. Only points with a free line of sight to the outside are certainly
   /// outside. Null for other bodies, whose fields give the sign.
@@ -80,10 +87,6 @@ struct Body : BodyPlace {
   const DistanceField& field() const&;
   const DistanceField& field() const&& = delete;  ///< the body would be destroyed before the field is used
 };
-
-/// A ball that contains the body's surface, frame B: the points of its shell, or else the boxes of its fields. For a
-/// half-space: everything within 10 m of the body's origin.
-BoundingBall motionBall(const Body& body);
 
 /// What was built for one body; a row of the plan's table.
 struct BodyReport {

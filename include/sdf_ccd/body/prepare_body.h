@@ -20,8 +20,8 @@ struct BodyNeeds {
   bool triangles = false;  ///< Body::triangles
   bool surface = false;    ///< Body::surface
 
-  /// Whether a field or a shell is needed.
-  bool any() const { return field || shell; }
+  /// Whether anything of it is needed.
+  bool any() const { return field || shell || triangles || surface; }
 };
 
 /// Required accuracy of bodies that are prepared for checks.

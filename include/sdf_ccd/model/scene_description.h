@@ -32,6 +32,18 @@ inline bool isHalfSpace(const GeometryDescription& geometry) {
   return primitive && isHalfSpace(*primitive);
 }
 
+/// Whether a body's field and shell are made, as far as its pairs need them: without, these have verdicts, distances
+/// and depths, but no forces.
+enum class Forces {
+  kKnown,     ///< they are made
+  kAwaited,   ///< they are made later
+  kUnwanted,  ///< they are not made
+  kFailed,    ///< they could not be made
+};
+
+/// Why there are none, such as "its field and shell are being built"; empty if they are known.
+const char* whyNoForces(Forces forces);
+
 /// What is to know of a body besides its geometry. Bodies of equal geometry differ in nothing else.
 struct BodyPlace {
   std::string name;
@@ -40,12 +52,13 @@ struct BodyPlace {
   std::string failure;                            ///< why the body cannot be checked; empty if it can
   bool is_world = false;                          ///< an object of the world, not a link
   std::string map;                                ///< the map that the body is a tile of; empty if it is none
+  Forces forces = Forces::kKnown;
 };
 
 /// Whether all is equal, poses to the last bit.
 inline bool operator==(const BodyPlace& a, const BodyPlace& b) {
   return a.name == b.name && a.frame == b.frame && a.X_frame_B.matrix() == b.X_frame_B.matrix() &&
-         a.failure == b.failure && a.is_world == b.is_world && a.map == b.map;
+         a.failure == b.failure && a.is_world == b.is_world && a.map == b.map && a.forces == b.forces;
 }
 
 /// A rigid body: a robot's link or an object of the world.

@@ -80,7 +80,7 @@ struct PairResult {
   int body_a = -1;
   int body_b = -1;
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;    ///< why it was not checked, or is incomplete; else empty
+  std::string reason;    ///< why it was not checked, is incomplete, or has no force (wrenches are NaN); else empty
   WaypointSpan span;     ///< the part of the motion that was checked; empty if the pair is delayed
   bool skipped = false;  ///< CLEAR without a test, by the clearance known from an earlier cycle
   /// UNCERTAIN because no time was left to test it: by what is known from earlier cycles, the bodies overlap by no more

@@ -107,10 +107,11 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
   of_a.has_pair = of_b.has_pair = true;
   const bool can_be_checked = isPlanned(a) && isPlanned(b) && !(of_a.has_half_space && of_b.has_half_space);
   if (!can_be_checked) return {i, k, false, false};
+  needs[i].triangles = needs[k].triangles = true;
+  if (a.forces != Forces::kKnown || b.forces != Forces::kKnown) return {i, k, false, false};
   const bool a_can = whyNoShell(a).empty(), b_can = whyNoShell(b).empty();
   const bool a_shell = a_can && !(b_can && isOnlyAField(of_a, of_b)),
              b_shell = b_can && !(a_can && isOnlyAField(of_b, of_a));
-  needs[i].triangles = needs[k].triangles = true;
   // A field also tells where a body without a shell is.
   if (b_shell || !a_can || (a_can && b_can && options.both_fields)) needs[i].field = true;
   if (a_shell || !b_can || (a_can && b_can && options.both_fields)) needs[k].field = true;
@@ -125,7 +126,10 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
   std::string no_shell = whyNoShell(body);
   if (no_shell.empty() && planned.is_large && planned.has_pair)
     no_shell = "large; the shells of smaller bodies suffice";
-  const std::string idle = planned.has_pair ? "its pairs cannot be checked" : "no pair needs it";
+  const std::string idle = !planned.has_pair               ? "no pair needs it"
+                           : body.forces != Forces::kKnown ? whyNoForces(body.forces)
+                           : needs.triangles               ? "none of its pairs has forces"
+                                                           : "its pairs cannot be checked";
   if (!needs.field) left_out.push_back({"field", body.name, {needs.shell ? "used only as a shell" : idle}});
   if (!needs.shell) left_out.push_back({"shell", body.name, {no_shell.empty() ? idle : no_shell}});
 }

@@ -36,6 +36,7 @@ CollisionMonitor::~CollisionMonitor() {
   }
   if (services_) services_->stop();
   reconfiguration_.reset();
+  force_builder_.reset();
   live_map_.reset();
   scene_editor_.reset();
   queries_.reset();
@@ -122,8 +123,10 @@ void CollisionMonitor::setUp() {
   described_ = describeScene(
       parameters_, [&](const std::string& uri) { return loadLocalResource(uri, ros::package::getPath, directory); });
   shareMeshes(described_.scene.bodies);
+  setForces(parameters_.wrenches == MonitorParameters::Wrenches::kNever ? Forces::kUnwanted : Forces::kAwaited,
+            described_.scene.bodies);
   for (const std::string& warning : described_.warnings) NODELET_WARN("%s", warning.c_str());
-  buildFields();
+  buildScene();
   loop_ = std::make_unique<MonitorLoop>(first_world_, described_, parameters_);
   proximity_ = std::make_unique<ProximityOutputs>(getPrivateNodeHandle(), parameters_.proximity, *loop_);
   outputs_ = std::make_unique<Outputs>(getPrivateNodeHandle(), state_publisher_, world_publisher_, *loop_, described_,
@@ -149,16 +152,18 @@ void CollisionMonitor::setUp() {
   health_watch_.health().building.clear();
   restart("waiting for transforms");
   services_->setReady(*queries_, *scene_editor_, described_.fixed_frame, parameters_.requests.reset);
+  followWithForces();
 }
 
-void CollisionMonitor::buildFields() {
+/// Surfaces, on which verdicts depend, and what a live map needs; fields and shells of bodies with meshes follow.
+void CollisionMonitor::buildScene() {
   const ros::WallTime start = ros::WallTime::now();
   const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
   const std::shared_ptr<const Scene> scene =
       buildDescribed(described_, plan, parameters_.scene, [this](const std::string& body, double share) {
         checkCancelled();
         const std::string progress =
-            "building fields: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
+            "building surfaces: " + std::to_string(static_cast<int>(100.0 * share)) + " %, " + body;
         reportIdle(progress);
         logProgress(progress);
       });
@@ -169,6 +174,13 @@ void CollisionMonitor::buildFields() {
   publishPlan(*first_world_);
   NODELET_INFO("Ready after %.1f s, fixed frame %s. The plan:\n%s", (ros::WallTime::now() - start).toSec(),
                described_.fixed_frame.c_str(), planTable(*scene).c_str());
+}
+
+void CollisionMonitor::followWithForces() {
+  if (parameters_.wrenches == MonitorParameters::Wrenches::kNever) return;
+  const bool at_once = parameters_.wrenches == MonitorParameters::Wrenches::kAlways;
+  force_builder_ = std::make_unique<ForceBuilder>(
+      *scene_editor_, loop_->history(), [this, at_once] { return at_once || outputs_->haveWantedWrenches(); });
 }
 
 void CollisionMonitor::logProgress(const std::string& progress) {

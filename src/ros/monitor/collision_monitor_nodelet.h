@@ -10,6 +10,7 @@
 
 #include "ros/monitor/contact_log.h"
 #include "ros/monitor/cycle_watchdog.h"
+#include "ros/monitor/force_builder.h"
 #include "ros/monitor/health_watch.h"
 #include "ros/monitor/live_map.h"
 #include "ros/monitor/monitor_services.h"
@@ -46,7 +47,8 @@ class CollisionMonitor : public nodelet::Nodelet {
   void setUpThenCycle();
   void waitForParameters();
   void setUp();
-  void buildFields();
+  void buildScene();
+  void followWithForces();
   void logProgress(const std::string& progress);
   std::string attempt(const std::function<void()>& work) const;
   void betweenCycles();
@@ -75,6 +77,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   std::unique_ptr<Queries> queries_;
   std::unique_ptr<SceneEditor> scene_editor_;
   std::unique_ptr<LiveMap> live_map_;
+  std::unique_ptr<ForceBuilder> force_builder_;
   std::unique_ptr<Reconfiguration> reconfiguration_;
 
   std::unique_ptr<Diagnostics> diagnostics_;

@@ -95,18 +95,20 @@ void setScalars(const MonitorLoop& loop, MonitorState& message) {
   }
   message.max_depth = message.max_force = 0.0;
   message.min_clearance = std::numeric_limits<double>::infinity();
-  bool is_known = true;
+  bool are_depths_known = true, are_forces_known = true;
   for (const PairResult& pair : loop.result().pairs) {
     if (pair.span.empty()) continue;
     message.min_clearance =
         std::min(message.min_clearance, pair.verdict == Verdict::kClear ? std::max(0.0, pair.clearance) : 0.0);
     if (pair.intervals.empty()) continue;
-    if (!isTimed(pair)) is_known = false;
+    if (!isTimed(pair)) are_depths_known = false;
+    if (pair.on_a_W.force.hasNaN()) are_forces_known = false;
     message.max_depth = std::max(message.max_depth, pair.deepest.depth);
     message.max_force = std::max(message.max_force, pair.on_a_W.force.norm());
   }
   if (!std::isfinite(message.min_clearance)) message.min_clearance = 0.0;
-  if (!is_known) message.max_depth = message.max_force = std::numeric_limits<double>::quiet_NaN();
+  if (!are_depths_known) message.max_depth = std::numeric_limits<double>::quiet_NaN();
+  if (!are_forces_known) message.max_force = std::numeric_limits<double>::quiet_NaN();
   message.contacts = static_cast<std::uint32_t>(loop.contacts().size());
 }
 

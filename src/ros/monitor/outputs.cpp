@@ -1,5 +1,6 @@
 #include "ros/monitor/outputs.h"
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -13,6 +14,17 @@ namespace {
 
 constexpr std::size_t kQueue = 8;  // maximum number of cycles whose messages wait to be published
 const ros::WallDuration kCountPeriod(0.02);
+
+/// Per body: of all of its pairs.
+std::vector<char> areForcesKnown(const Scene& scene) {
+  std::vector<char> known(scene.bodies.size(), 1);
+  for (const PlannedPair& pair : scene.pairs) {
+    const bool are_known =
+        scene.bodies[pair.body_a].forces == Forces::kKnown && scene.bodies[pair.body_b].forces == Forces::kKnown;
+    if (!are_known) known[static_cast<std::size_t>(pair.body_a)] = known[static_cast<std::size_t>(pair.body_b)] = 0;
+  }
+  return known;
+}
 
 }  // namespace
 
@@ -63,11 +75,14 @@ std::unique_ptr<Outputs::Change> Outputs::prepare(const CheckedWorld& next) {
   auto change = std::make_unique<Change>();
   change->link_of_body = torques_.linksOf(next.scene());
   const BodyList& bodies = next.scene().bodies;
+  const std::vector<char> is_ready = areForcesKnown(next.scene());
+  change->are_all_ready = std::all_of(is_ready.begin(), is_ready.end(), [](char ready) { return ready; });
   const std::lock_guard<std::mutex> lock(topics_mutex_);
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     if (bodies[body].is_world) continue;
     const auto topic = topics_.find(wrenchTopic(bodies[body]));
-    if (topic != topics_.end()) change->wrenches.push_back({topic->second, static_cast<int>(body)});
+    if (topic != topics_.end())
+      change->wrenches.push_back({topic->second, static_cast<int>(body), is_ready[body] != 0});
   }
   return change;
 }
@@ -75,13 +90,16 @@ std::unique_ptr<Outputs::Change> Outputs::prepare(const CheckedWorld& next) {
 void Outputs::adopt(Change& change) {
   wrenches_.swap(change.wrenches);
   torques_.swapLinks(change.link_of_body);
+  are_all_ready_ = change.are_all_ready;
 }
 
 CycleRequest Outputs::request(int max_points) {
   countSubscribers();
   const bool wants_state = state_wanted_ || ros::WallTime::now() >= state_due_;
   CycleRequest request;
-  request.wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_ || wants_state;
+  const bool wants_wrenches = contacts_wanted_ || wrenches_wanted_ || torques_wanted_;
+  if (wants_wrenches || markers_.wantsMarkers()) have_wanted_wrenches_ = true;
+  request.wrenches = wants_wrenches || wants_state;
   request.contacts = contacts_wanted_ || markers_.wantsMarkers() || wants_state;
   request.max_points = contacts_wanted_ || markers_.wantsMarkers() ? max_points : 0;
   // The status text and the state report the clearance of all pairs.
@@ -125,14 +143,14 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost:
   if (isDue(*state)) report.state = state;
   report.distances = distances;
   report.has_contact_states = contact_states_wanted_;
-  if (torques_wanted_) report.torques = torques_.toMessage(loop_);
+  if (torques_wanted_ && are_all_ready_) report.torques = torques_.toMessage(loop_);
   if (contacts_wanted_) {
     report.contacts = contact_messages_.take();
     setContactArray(loop_, *report.contacts);
   }
   for (std::size_t i = 0; i < wrenches_.size() && wrenches_wanted_; ++i) {
     LinkWrench& link = wrenches_[i];
-    if (!link.is_wanted || !loop_.cycle().motion.missing[link.body].empty()) continue;
+    if (!link.is_wanted || !link.is_ready || !loop_.cycle().motion.missing[link.body].empty()) continue;
     report.wrenches.emplace_back(link.publisher, link.messages->take());
     setWrenchStamped(loop_, link.body, *report.wrenches.back().second);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -30,6 +31,7 @@ namespace sdf_ccd {
 ///   wrenches/<link>  geometry_msgs/WrenchStamped  every cycle: sum of the contact wrenches on the link, in the link's
 ///                                                 frame, about its origin [N, N·m]
 ///   joint_torques    sensor_msgs/JointState       see TorqueOutput
+/// The last two only once the forces of all pairs that they need are known (Forces).
 /// Nothing is computed or filled that has no subscriber.
 ///
 /// The thread of the cycles fills the messages, which takes no longer than to copy its results. Another thread
@@ -54,6 +56,7 @@ class Outputs {
   /// The wrenches on a link, or on an object attached to one.
   struct LinkWrench : WrenchTopic {
     int body;
+    bool is_ready = true;  ///< the forces of all of its pairs are known
     bool is_wanted = false;
   };
 
@@ -61,6 +64,7 @@ class Outputs {
   struct Change {
     std::vector<LinkWrench> wrenches;
     std::vector<int> link_of_body;  ///< see TorqueOutput
+    bool are_all_ready = true;
   };
 
   /// Makes the publishers for the links and attached objects of a world, and drops those that neither it nor the
@@ -79,6 +83,9 @@ class Outputs {
 
   /// The request for the next cycle, according to the subscribers.
   CycleRequest request(int max_points);
+
+  /// Whether anything that holds wrenches has ever had a subscriber. May be called from any thread.
+  bool haveWantedWrenches() const { return have_wanted_wrenches_; }
 
   /// Publishes the loop's last cycle.
   /// @param state      of that cycle.
@@ -119,9 +126,11 @@ class Outputs {
   MarkerOutputs markers_;
   MessagePool<ContactArray> contact_messages_;
 
-  ros::WallTime counted_at_;  // when subscribers were last counted
-  ros::WallTime state_due_;   // when a state is published without subscribers
+  ros::WallTime counted_at_;                        // when subscribers were last counted
+  ros::WallTime state_due_;                         // when a state is published without subscribers
   std::uint8_t verdict_ = 0, proximity_level_ = 0;  // of the state that was published last
+  bool are_all_ready_ = true;                       // all wrenches
+  std::atomic<bool> have_wanted_wrenches_{false};
   bool contact_states_wanted_ = false;
   bool contacts_wanted_ = false, state_wanted_ = false, wrenches_wanted_ = false, torques_wanted_ = false;
 

@@ -169,7 +169,7 @@ PlannedMotion alongTrajectory(const QueryMotion::Request& request, const Planned
     const Carrier& carrier = now.carriers[body];
     const bool is_carried = carrier.link >= 0;
     bodies.bodies.push_back(
-        {carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], motionBall(planned.scene.bodies[body])});
+        {carrier.link, is_carried ? carrier.X_LB : now.X_WB[body], planned.scene.bodies[body].ball});
     if (is_carried) bodies.missing[body] = movesRoot(request, planned) ? now.plan_frame_missing : now.root_missing;
   }
   PlannedMotion result = planAlong(planned.robot, plan, bodies, planned.sampling);

@@ -27,6 +27,8 @@
 namespace sdf_ccd {
 namespace {
 
+constexpr double kWaitForForces = 0.5;                // share of a request's time
+constexpr std::chrono::milliseconds kPollPeriod(10);  // of the wait
 constexpr std::size_t kPointsPerPiece = 500;
 constexpr std::size_t kMotionsPerThread = 16;  // in one piece, so that all threads have work in each
 constexpr double kLong = 0.05;                 // after answers that take longer, freed memory is returned [s]
@@ -241,12 +243,30 @@ PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWo
   return planned;
 }
 
-void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response,
-                          std::string& used_by) {
+void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by) {
   requireAtMost(limits_.waypoints,
                 request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
                 "waypoints");
+  const auto start = std::chrono::steady_clock::now();
   double spent = 0.0;
+  while (!checkOnce(request, response, used_by, spent)) {
+    if (secondsSince(start) > kWaitForForces * request_time_) {
+      response.message +=
+          (response.message.empty() ? "" : "; ") + std::string("forces of some contacts are not known yet");
+      return;
+    }
+    const std::uint64_t version = response.scene_version;
+    while (world()->version() == version && secondsSince(start) <= kWaitForForces * request_time_) {
+      checkCancelled();
+      std::this_thread::sleep_for(kPollPeriod);
+    }
+    response = {};
+  }
+}
+
+/// @return false if forces of a contact are awaited (Forces::kAwaited).
+bool Queries::checkOnce(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by,
+                        double& spent) {
   std::shared_ptr<const CheckedWorld> world;
   PlannedMotion planned;
   {
@@ -288,6 +308,11 @@ void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Resp
   if (markers) marker_publisher_.publish(markers->draw(result, context, history_.fixedFrame()));
   response.checked = result.checked + result.skipped;
   response.not_checked = result.not_checked;
+  return std::none_of(result.pairs.begin(), result.pairs.end(), [&](const PairResult& pair) {
+    const BodyList& bodies = world->scene().bodies;
+    return pair.on_a_W.force.hasNaN() && (bodies[static_cast<std::size_t>(pair.body_a)].forces == Forces::kAwaited ||
+                                          bodies[static_cast<std::size_t>(pair.body_b)].forces == Forces::kAwaited);
+  });
 }
 
 void Queries::answer(const QueryMotions::Request& request, QueryMotions::Response& response) {

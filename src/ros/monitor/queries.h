@@ -68,6 +68,8 @@ class Queries {
   ///@{
   void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response, std::string& used_by);
   void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by);
+  bool checkOnce(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by,
+                 double& spent);
   ///@}
   void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
 
@@ -86,7 +88,8 @@ class Queries {
   double request_time_;  // longest time until an answer, with all waiting [s]
   WorkTurns turns_;
   std::shared_ptr<MeshDistances> meshes_ = makeMeshDistances();
-  std::set<std::string> doubts_;  // about bodies that errors of distances allow for, as logged; used by one answer at a time
+  std::set<std::string>
+      doubts_;  // about bodies that errors of distances allow for, as logged; used by one answer at a time
   std::shared_ptr<MonitorMemory> memory_ = makeMonitorMemory();  // shared by all answers, as one works at a time
   WorkArena arena_;
 };

@@ -117,12 +117,13 @@ void SceneEditor::commit(Draft& draft) {
 /// @return false if bodies have to be built first, because others have changed the scene.
 bool SceneEditor::makeNext(Draft& draft) {
   const Turn turn(*this, draft.changer);
-  if (draft.changer == Changer::kMap) {
-    ChangingScene rebased = *scene();
-    rebased.setTilesOf(draft.scene);
-    draft.scene = std::move(rebased);
+  ChangingScene last = *scene();
+  if (draft.changer == Changer::kRequest) {
+    draft.scene.setTilesOf(last);
+    draft.scene.setForcesOf(last);
   } else {
-    draft.scene.setTilesOf(*scene());
+    draft.changer == Changer::kMap ? last.setTilesOf(draft.scene) : last.setForcesOf(draft.scene);
+    draft.scene = std::move(last);
   }
   draft.arena.run([&] {
     const auto snapshot = editor_->next(draft.scene.description(limits_), *draft.parts);
@@ -133,11 +134,11 @@ bool SceneEditor::makeNext(Draft& draft) {
     draft.world = world;
   });
   if (!draft.world) return false;
-  std::unique_ptr<PreparedWorld> last = handover_.withdraw();
+  std::unique_ptr<PreparedWorld> waiting = handover_.withdraw();
   try {
     handover_.offer(prepare(draft.world, draft.arena));
   } catch (...) {
-    if (last) handover_.offer(std::move(last));
+    if (waiting) handover_.offer(std::move(waiting));
     throw;
   }
   const std::lock_guard<std::mutex> lock(last_mutex_);
@@ -209,6 +210,25 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
 std::shared_ptr<const CheckedWorld> SceneEditor::world() {
   const std::lock_guard<std::mutex> lock(last_mutex_);
   return last_;
+}
+
+void SceneEditor::addForces(const std::vector<std::string>& bodies, WorkArena& arena) {
+  lowerPriority();
+  Draft draft{Changer::kForces, *scene(), arena, nullptr, {}, nullptr};
+  draft.scene.setForces(bodies, Forces::kKnown);
+  for (bool is_built = false; !is_built;) {
+    draft.making.clear();
+    try {
+      build(draft);
+      is_built = true;
+    } catch (const std::invalid_argument& problem) {
+      if (draft.making.empty()) throw;
+      ROS_WARN("No forces of %s", problem.what());
+      draft.scene.setForces({draft.making}, Forces::kFailed);
+    }
+  }
+  commit(draft);
+  handover_.waitFor(draft.world->version());
 }
 
 std::uint64_t SceneEditor::setMap(std::vector<BodyDescription> tiles, TileObjects objects, std::shared_ptr<MapAge> age,

@@ -50,6 +50,12 @@ class SceneEditor {
   std::uint64_t setMap(std::vector<BodyDescription> tiles, TileObjects objects, std::shared_ptr<MapAge> age,
                        WorkArena& arena);
 
+  /// Builds fields and shells of bodies that await them, and makes a version with these; others change the scene
+  /// meanwhile. Where that fails, a body has Forces::kFailed from then on, which is logged.
+  /// @param arena  of the calling thread.
+  /// @throws std::exception if no version can be made; Cancelled. The scene does not change then.
+  void addForces(const std::vector<std::string>& bodies, WorkArena& arena);
+
   /// The last version that was made. May be called from any thread.
   std::shared_ptr<const CheckedWorld> world();
 
@@ -60,7 +66,7 @@ class SceneEditor {
 
  private:
   class Turn;
-  enum class Changer { kRequest, kMap };
+  enum class Changer { kRequest, kMap, kForces };
   struct Draft;
 
   void edit(const UpdateScene::Request& request, UpdateScene::Response& response, std::string& making);

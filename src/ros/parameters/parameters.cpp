@@ -199,6 +199,8 @@ MonitorParameters parseParameters(const Setting& tree, const std::string& name) 
   parameters.overlapping_pairs =
       reader.choice("overlapping_pairs", {"neighbours", "rest", "leave_out", "check"}, parameters.overlapping_pairs);
 
+  parameters.wrenches = reader.choice("wrenches", {"always", "on_demand", "never"}, parameters.wrenches);
+
   parameters.world = readWorld(reader);
   parameters.world_file = reader.text("world_file", "");
   parameters.resource_roots = reader.texts("resource_roots");

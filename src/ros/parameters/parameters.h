@@ -66,6 +66,8 @@ struct MonitorParameters {
   RobotSceneOptions robot;
   PairRules pairs;
   OverlapRule::Kind overlapping_pairs = OverlapRule::Kind::kNeighbours;
+  enum class Wrenches { kAlways, kOnDemand, kNever };
+  Wrenches wrenches = Wrenches::kAlways;
   std::vector<WorldObject> world;
   std::string world_file;                   ///< further objects; empty: none
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name

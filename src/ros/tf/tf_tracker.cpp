@@ -50,7 +50,7 @@ std::string tooFar(const std::string& frame) {
 
 std::vector<TrackedBody> trackedBodies(const Scene& scene) {
   std::vector<TrackedBody> bodies;
-  for (const Body& body : scene.bodies) bodies.push_back({body.frame, body.X_frame_B, motionBall(body)});
+  for (const Body& body : scene.bodies) bodies.push_back({body.frame, body.X_frame_B, body.ball});
   return bodies;
 }
 

@@ -132,6 +132,10 @@ std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(const std::v
   return settled;
 }
 
+void ChangingScene::setForces(const std::vector<std::string>& bodies, Forces forces) {
+  for (const std::string& body : bodies) forces_[body] = forces;
+}
+
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
@@ -144,6 +148,10 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   std::sort(objects.begin() + static_cast<std::ptrdiff_t>(scene.bodies.size()), objects.end(),
             [](const Object* a, const Object* b) { return a->order < b->order; });
   for (std::size_t i = scene.bodies.size(); i < objects.size(); ++i) scene.bodies.push_back(objects[i]->body);
+  for (BodyDescription& body : scene.bodies) {
+    const auto known = body.forces == Forces::kAwaited ? forces_.find(body.name) : forces_.end();
+    if (known != forces_.end()) body.forces = known->second;
+  }
   const auto moving = static_cast<std::size_t>(std::count_if(
       scene.bodies.begin(), scene.bodies.end(), [](const BodyDescription& body) { return !body.is_world; }));
   if (moving * objects.size() > limits.pairs)  // tiles do not count: no request may keep a map out

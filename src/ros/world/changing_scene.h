@@ -58,6 +58,12 @@ class ChangingScene {
     map_age_ = other.map_age_;
   }
 
+  /// Sets what is known of the forces of bodies that awaited them at start-up.
+  void setForces(const std::vector<std::string>& bodies, Forces forces);
+
+  /// The same by those of another version of this scene.
+  void setForcesOf(const ChangingScene& other) { forces_ = other.forces_; }
+
   const std::shared_ptr<MapAge>& mapAge() const { return map_age_; }
 
   /// The complete scene, to be built. @throws std::length_error if it exceeds the limits.
@@ -94,7 +100,7 @@ class ChangingScene {
     bool is_unchanged = false;  // since start-up
     std::uint64_t declared = 0;
   };
-  struct StartUp;  // data that does not change: the links, and the pairs that were left out at start-up
+  struct StartUp;   // data that does not change: the links, and the pairs that were left out at start-up
   struct Settled {  // what the rules say of links and objects: no map has to wait until that is found out again
     std::vector<AllowedPair> allowed;
     std::set<NamePair> left_out;  // at start-up; empty if there are no rules
@@ -134,10 +140,11 @@ class ChangingScene {
   std::shared_ptr<const std::vector<BodyDescription>> tiles_;
   std::shared_ptr<const TileObjects> tile_objects_;  // null if there are no tiles
   std::shared_ptr<MapAge> map_age_;
+  std::map<std::string, Forces> forces_;  // of bodies that awaited them at start-up
   std::vector<RequestRule> rules_;
   mutable std::shared_ptr<const Settled> settled_;  // null after a change, until description()
-  std::size_t added_ = 0;       // number of objects ever added
-  std::uint64_t declared_ = 0;  // number of changes that said what or where an object is
+  std::size_t added_ = 0;                           // number of objects ever added
+  std::uint64_t declared_ = 0;                      // number of changes that said what or where an object is
 };
 
 }  // namespace sdf_ccd

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "robot/robot_scene_case.h"
+#include "robot_monitor/robot_scene_case.h"
 
 namespace sdf_ccd::robot_scene_test {
 

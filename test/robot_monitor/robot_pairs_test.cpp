@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/failure.h"
-#include "robot/robot_scene_case.h"
+#include "robot_monitor/robot_scene_case.h"
 
 namespace sdf_ccd::robot_pairs_test {
 
