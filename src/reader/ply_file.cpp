@@ -137,7 +137,7 @@ bool takeInstance(const Element& element, Numbers& numbers, Vector3d& point, std
     if (!(count >= 0.0 && count <= static_cast<double>(numbers.bytesLeft()) && count == std::floor(count)))
       return false;
     const bool are_corners = property.name == "vertex_indices" || property.name == "vertex_index";
-    for (double i = 0.0; i < count; ++i) {
+    for (auto left = static_cast<std::size_t>(count); left > 0; --left) {
       const std::optional<double> number = numbers.take(*property.type);
       if (!number) return false;
       if (property.count && are_corners) {
