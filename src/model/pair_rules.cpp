@@ -65,15 +65,13 @@ void applyRules(const PairRules& rules, SceneDescription& scene, std::vector<std
   warnOfUnknown("checked_pairs", rules.checked, scene, warnings);
   if (rules.allowed.empty() && rules.checked.empty()) return;
   auto& allowed = scene.allowed;
-  const auto wanted = [&](const AllowedPair& pair) { return matchesAny(rules.checked, pair.body_a, pair.body_b); };
+  const auto wanted = [&](const PairDecision& pair) { return matchesAny(rules.checked, pair.body_a, pair.body_b); };
   allowed.erase(std::remove_if(allowed.begin(), allowed.end(), wanted), allowed.end());
-  std::set<NamePair> left_out;
-  for (const AllowedPair& pair : allowed) left_out.insert(namePair(pair.body_a, pair.body_b));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
       const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;
       const std::string reason = whyAllowed(rules, a, b);
-      if (!reason.empty() && left_out.count(namePair(a, b)) == 0) allowed.push_back({a, b, reason});
+      if (!reason.empty()) allowed.push_back({a, b, reason});
     }
 }
 

@@ -121,18 +121,12 @@ Scene makeScene(std::vector<Body> bodies, double motion_margin) {
   return scene;
 }
 
-void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene) {
-  std::vector<PlannedPair> kept;
-  for (std::size_t p = 0; p < scene.pairs.size(); ++p) {
-    const PlannedPair& pair = scene.pairs[p];
-    if (reasons[p].text.empty()) {
-      kept.push_back(pair);
-    } else {
-      scene.left_out.push_back({"pair", pairName(scene, pair), reasons[p], pair.body_a, pair.body_b});
-    }
-  }
-  if (kept.size() == scene.pairs.size()) return;
-  scene.pairs = std::move(kept);
+void leaveOut(const std::vector<PairDecision>& pairs, Scene& scene) {
+  std::set<std::pair<int, int>> removed;
+  for (const PairDecision& pair : pairs) removed.emplace(pair.a, pair.b);
+  const auto is_removed = [&](const PlannedPair& pair) { return removed.count({pair.body_a, pair.body_b}) > 0; };
+  scene.pairs.erase(std::remove_if(scene.pairs.begin(), scene.pairs.end(), is_removed), scene.pairs.end());
+  scene.left_out.insert(scene.left_out.end(), pairs.begin(), pairs.end());
   setTotals(scene);
 }
 

@@ -8,8 +8,7 @@ namespace sdf_ccd {
 std::string whyNoPairs(const Scene& scene) {
   if (!scene.pairs.empty()) return {};
   std::map<std::string, std::size_t> count;  // of pairs by reason
-  for (const LeftOut& left_out : scene.left_out)
-    if (left_out.isPair()) ++count[left_out.reason.text];
+  for (const PairDecision& pair : scene.left_out) ++count[pair.text];
   const std::string begin = "nothing is checked: ";
   if (!count.empty()) {
     const auto most =

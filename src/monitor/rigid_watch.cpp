@@ -24,11 +24,10 @@ RigidWatch::RigidWatch(const Scene& scene) {
     }
     return static_cast<std::size_t>(known);
   };
-  for (const LeftOut& left_out : scene.left_out) {
-    if (!left_out.reason.rigid) continue;
-    const RigidPose& pose = *left_out.reason.rigid;
-    pairs_.push_back({left_out.body_a, left_out.body_b, false, false});
-    joints_.push_back({watch(left_out.body_a, pose.ball_a), watch(left_out.body_b, pose.ball_b), pose.X_AB});
+  for (const PairDecision& pair : scene.left_out) {
+    if (!pair.rigid) continue;
+    pairs_.push_back({pair.a, pair.b, false, false});
+    joints_.push_back({watch(pair.a, pair.rigid->ball_a), watch(pair.b, pair.rigid->ball_b), pair.rigid->X_AB});
     join(joints_.back());
   }
   for (const Watched& body : watched_) {

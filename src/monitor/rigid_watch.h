@@ -7,7 +7,7 @@
 
 namespace sdf_ccd {
 
-/// Finds pairs that a scene leaves out because their bodies do not move relative to each other (LeftOutReason::rigid),
+/// Finds pairs that a scene leaves out because their bodies do not move relative to each other (PairKind::kRigid),
 /// but that a motion has elsewhere: points in the ball around one of them by more than a millimetre, as seen from the
 /// other. Robots as calibrated differ by less from their URDF.
 ///

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -10,7 +9,6 @@
 
 #include "body/build_body.h"
 #include "common/seconds_since.h"
-#include "model/name_pair.h"
 #include "monitor/plan/scene_totals.h"
 #include "monitor/plan/surface_needs.h"
 #include "prepared_bodies.h"
@@ -31,18 +29,10 @@ std::shared_ptr<const Body> placed(const Body& prepared, const BodyDescription& 
 /// The description of a built scene, with the failures and the pairs that were left out during building.
 SceneDescription withLeftOut(SceneDescription description, const ScenePlan& plan, const Scene& scene) {
   for (std::size_t b = 0; b < description.bodies.size(); ++b) description.bodies[b].failure = scene.bodies[b].failure;
-  std::set<std::pair<int, int>> kept;
-  for (const PlannedPair& pair : scene.pairs) kept.emplace(pair.body_a, pair.body_b);
-  std::map<std::pair<int, int>, LeftOutReason> reasons;
-  for (const LeftOut& left_out : scene.left_out)
-    reasons.emplace(std::pair(left_out.body_a, left_out.body_b), left_out.reason);
-  for (const PlannedPair& pair : plan.pairs) {
-    if (kept.count({pair.body_a, pair.body_b}) > 0) continue;
-    const std::string &a = description.bodies[pair.body_a].name, &b = description.bodies[pair.body_b].name;
-    const auto known = reasons.find({pair.body_a, pair.body_b});
-    const LeftOutReason reason = known == reasons.end() ? LeftOutReason{"left out"} : known->second;
-    description.allowed.push_back({a, b, reason.text, reason.depth});
-  }
+  std::set<std::pair<int, int>> planned;
+  for (const PlannedPair& pair : plan.pairs) planned.emplace(pair.body_a, pair.body_b);
+  for (const PairDecision& pair : scene.left_out)
+    if (planned.count({pair.a, pair.b}) > 0) description.allowed.push_back(pair);
   return description;
 }
 

@@ -11,24 +11,25 @@
 namespace sdf_ccd {
 namespace {
 
-/// Tells why a pair of links may touch. Of those that are rigidly joined only if the SRDF says so.
-class PairFilter {
- public:
-  PairFilter(const RobotModel& robot, const Srdf& srdf, const RobotSceneOptions& options)
-      : robot_(robot), options_(options), srdf_(srdf) {}
-
-  std::string reason(const std::string& a, const std::string& b) const {
-    std::string disabled = srdf_.whyDisabled(a, b);
-    if (!disabled.empty() || robot_.rigidlyJoined(a, b) || srdf_.isEnabled(a, b)) return disabled;
-    if (srdf_.isDisabledByDefault(a) || srdf_.isDisabledByDefault(b)) return "SRDF: disabled by default";
-    return !options_.check_adjacent && robot_.adjacent(a, b) ? "adjacent" : "";
+/// Adds the pairs of links that may touch. Of those that are rigidly joined only what the SRDF names.
+void allowPairs(const RobotModel& robot, const SrdfPairs& srdf, const RobotSceneOptions& options,
+                SceneDescription& scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    checkCancelled();
+    for (std::size_t k = i + 1; k < scene.bodies.size(); ++k) {
+      const std::string &a = scene.bodies[i].name, &b = scene.bodies[k].name;
+      if (const std::string disabled = srdf.whyDisabled(a, b); !disabled.empty()) {
+        scene.allowed.push_back({a, b, disabled, PairKind::kSrdf});
+      } else if (robot.rigidlyJoined(a, b) || srdf.isEnabled(a, b)) {
+        continue;
+      } else if (srdf.isDisabledByDefault(a) || srdf.isDisabledByDefault(b)) {
+        scene.allowed.push_back({a, b, "SRDF: disabled by default", PairKind::kSrdf});
+      } else if (!options.check_adjacent && robot.adjacent(a, b)) {
+        scene.allowed.push_back({a, b, "adjacent", PairKind::kAdjacent});
+      }
+    }
   }
-
- private:
-  const RobotModel& robot_;
-  const RobotSceneOptions& options_;
-  SrdfPairs srdf_;
-};
+}
 
 void warnOfVisualOnly(const std::vector<std::string>& links, std::vector<std::string>& warnings) {
   if (links.empty()) return;
@@ -86,15 +87,7 @@ SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const 
     warnings.push_back("the SRDF names link " + link + ", which the URDF does not have");
 
   requireFewPairs(robot, scene.bodies.size());
-  const PairFilter filter(robot, srdf, options);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    checkCancelled();
-    for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
-      const std::string &a = scene.bodies[i].name, &b = scene.bodies[j].name;
-      const std::string reason = filter.reason(a, b);
-      if (!reason.empty()) scene.allowed.push_back({a, b, reason});
-    }
-  }
+  allowPairs(robot, SrdfPairs(srdf), options, scene);
   setRigidRoots(robot, scene);
   return scene;
 }

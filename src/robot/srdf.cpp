@@ -30,7 +30,7 @@ class ElementReader {
       if (const std::string why = whyNoPair(element); !why.empty()) return warn(element, why + ", and is ignored");
       const std::string reason = attribute(element, "reason");
       srdf_.disabled.push_back({attribute(element, "link1"), attribute(element, "link2"),
-                                "SRDF: " + (reason.empty() ? "no reason given" : reason)});
+                                "SRDF: " + (reason.empty() ? "no reason given" : reason), PairKind::kSrdf});
     } else if (name == "disable_default_collisions") {
       if (has(element, "link")) srdf_.disabled_by_default.push_back(attribute(element, "link"));
     } else if (name == "enable_collisions") {

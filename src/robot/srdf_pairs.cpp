@@ -4,11 +4,11 @@
 
 namespace sdf_ccd {
 SrdfPairs::SrdfPairs(const Srdf& srdf) {
-  for (const AllowedPair& pair : srdf.disabled) {
+  for (const PairDecision& pair : srdf.disabled) {
     if (isPattern(pair.body_a) || isPattern(pair.body_b)) {
-      disabled_patterns_.push_back({{pair.body_a, pair.body_b}, pair.reason});
+      disabled_patterns_.push_back({{pair.body_a, pair.body_b}, pair.text});
     } else {
-      disabled_.emplace(namePair(pair.body_a, pair.body_b), pair.reason);
+      disabled_.emplace(namePair(pair.body_a, pair.body_b), pair.text);
     }
   }
   for (const auto& [a, b] : srdf.enabled) {
@@ -44,9 +44,23 @@ bool SrdfPairs::isDisabledByDefault(const std::string& link) const {
                                                     [&](const std::string& pattern) { return matches(pattern, link); });
 }
 
+const char* srdfReason(PairKind kind) {
+  switch (kind) {
+    case PairKind::kAdjacent:
+      return "Adjacent";
+    case PairKind::kNever:
+      return "Never";
+    case PairKind::kAlways:
+    case PairKind::kHeld:
+      return "Always";
+    default:
+      return "Default";
+  }
+}
+
 std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::string>& links) {
   std::set<std::string> named(srdf.disabled_by_default.begin(), srdf.disabled_by_default.end());
-  for (const AllowedPair& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
+  for (const PairDecision& pair : srdf.disabled) named.insert({pair.body_a, pair.body_b});
   for (const auto& [a, b] : srdf.enabled) named.insert({a, b});
   for (const auto& [joint, child] : srdf.virtual_joints) named.insert(child);
   for (const std::string& link : links) named.erase(link);

@@ -31,6 +31,10 @@ class SrdfPairs {
   std::vector<std::string> default_patterns_;
 };
 
+/// The reason of such a pair in an SRDF, as MoveIt's setup assistant has it.
+/// @param kind  kAdjacent, or learned from states.
+const char* srdfReason(PairKind kind);
+
 /// Names and patterns of an SRDF that no link has, in ascending order.
 std::vector<std::string> unknownLinks(const Srdf& srdf, const std::vector<std::string>& links);
 

@@ -35,44 +35,28 @@ void warnOfUnits(const SceneDescription& description, std::vector<std::string>& 
   }
 }
 
-/// Sorts the pairs of a described robot's bodies into those that have to be tested and those that need not.
-class PairSorter {
- public:
-  PairSorter(const RobotModel& robot, const Srdf& srdf) : robot_(robot), srdf_(srdf) {}
-
-  /// False if the pair needs no test; it is then added to `pairs`.
-  bool mustBeTested(const BodyDescription& a, const BodyDescription& b, LearnedPairs& pairs) const {
-    if (isKnown(a.name, b.name)) {
-      ++pairs.known;
-    } else if (areJoined(a.name, b.name)) {
-      pairs.disabled.push_back({a.name, b.name, "Adjacent"});
-    } else if (!a.failure.empty() || !b.failure.empty()) {
-      pairs.unknown.push_back({a.name, b.name, !a.failure.empty() ? a.failure : b.failure});
-    } else if (const std::string joint =
-                   JointSampler::unboundedBetween(robot_, robot_.find(a.name), robot_.find(b.name));
-               !joint.empty()) {
-      pairs.unknown.push_back({a.name, b.name, "joint " + joint + " is unbounded"});
-    } else {
-      return true;
-    }
-    return false;
+/// False if the pair needs no test; it is then added to `pairs`.
+bool mustBeTested(const RobotModel& robot, const SrdfPairs& srdf, const BodyDescription& a, const BodyDescription& b,
+                  LearnedPairs& pairs) {
+  const bool has_rule = !srdf.whyDisabled(a.name, b.name).empty() || srdf.isEnabled(a.name, b.name) ||
+                        srdf.isDisabledByDefault(a.name) || srdf.isDisabledByDefault(b.name);
+  const bool are_joined =
+      robot.adjacent(a.name, b.name) || (robot.rigidlyJoined(a.name, b.name) && robot.neighbours(a.name, b.name));
+  const std::string unbounded = JointSampler::unboundedBetween(robot, robot.find(a.name), robot.find(b.name));
+  const std::string& failure = a.failure.empty() ? b.failure : a.failure;
+  if (has_rule) {
+    ++pairs.known;
+  } else if (are_joined) {
+    pairs.disabled.push_back({a.name, b.name, "", PairKind::kAdjacent});
+  } else if (!failure.empty()) {
+    pairs.unknown.push_back({a.name, b.name, failure});
+  } else if (!unbounded.empty()) {
+    pairs.unknown.push_back({a.name, b.name, "joint " + unbounded + " is unbounded"});
+  } else {
+    return true;
   }
-
- private:
-  /// Whether the SRDF has a rule for the pair.
-  bool isKnown(const std::string& a, const std::string& b) const {
-    return !srdf_.whyDisabled(a, b).empty() || srdf_.isEnabled(a, b) || srdf_.isDisabledByDefault(a) ||
-           srdf_.isDisabledByDefault(b);
-  }
-
-  /// Whether they are joined rigidly or by one joint, with nothing between them.
-  bool areJoined(const std::string& a, const std::string& b) const {
-    return robot_.adjacent(a, b) || (robot_.rigidlyJoined(a, b) && robot_.neighbours(a, b));
-  }
-
-  const RobotModel& robot_;
-  SrdfPairs srdf_;
-};
+  return false;
+}
 
 BodyOptions sceneOptions(double max_error) {
   BodyOptions options = optionsFor({max_error});
@@ -80,31 +64,28 @@ BodyOptions sceneOptions(double max_error) {
   return options;
 }
 
-bool isClose(const ObservedPair& pair) {
-  return pair.has(Nearness::kNear) || pair.has(Nearness::kOpen) || pair.has(Nearness::kHeld);
-}
-
 void sortOut(const PlannedPair& pair, const ObservedPair& seen, const Scene& scene, const LearnOptions& options,
              LearnedPairs& pairs) {
-  LearnedPair found = {scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name, ""};
-  const bool is_always = seen.areAlwaysTogether(), touches = seen.has(Nearness::kOverlap);
-  if (seen.mayOverlapAtRest() && !is_always) pairs.at_default.push_back(found);
-  if (seen.has(Nearness::kUnknown)) {
+  PairDecision found = {scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name};
+  const Together together = seen.together();
+  if (seen.mayOverlapAtRest() && together != Together::kAlways) pairs.at_default.push_back(found);
+  const auto disable = [&](PairKind kind) {
+    found.kind = kind;
+    pairs.disabled.push_back(found);
+  };
+  if (together == Together::kUnknown) {
     const std::string& failure = scene.bodies[pair.body_a].failure;
-    found.reason = failure.empty() ? scene.bodies[pair.body_b].failure : failure;
-    if (found.reason.empty()) found.reason = "a state could not be tested";
+    found.text = failure.empty() ? scene.bodies[pair.body_b].failure : failure;
+    if (found.text.empty()) found.text = "a state could not be tested";
     pairs.unknown.push_back(found);
-  } else if (is_always) {
-    found.reason = "Always";
-    pairs.disabled.push_back(found);
-  } else if (!touches && !isClose(seen)) {
-    found.reason = "Never";
-    pairs.disabled.push_back(found);
+  } else if (together == Together::kAlways) {
+    disable(PairKind::kAlways);
+  } else if (together == Together::kNever) {
+    disable(PairKind::kNever);
   } else if (options.default_pairs && seen.mayOverlapAtRest()) {
-    found.reason = "Default";
-    pairs.disabled.push_back(found);
+    disable(PairKind::kAtRest);
   } else {
-    (touches ? pairs.touching : pairs.close).push_back(found);
+    (together == Together::kSometimes ? pairs.touching : pairs.close).push_back(found);
   }
 }
 
@@ -120,8 +101,8 @@ std::vector<ObservedPair> testPairs(const RobotModel& robot, const Scene& scene,
   observation.near = scene.contact_bound.total();
   observation.is_open = [&](std::size_t p, const ObservedPair& seen, std::size_t random) {
     const std::string &a = scene.bodies[scene.pairs[p].body_a].name, &b = scene.bodies[scene.pairs[p].body_b].name;
-    if (seen.has(Nearness::kUnknown) || robot.rigidlyJoined(a, b)) return false;  // one state is enough
-    return seen.areAlwaysTogether() ? random <= kAlways : !seen.has(Nearness::kOverlap);
+    if (seen.together() == Together::kUnknown || robot.rigidlyJoined(a, b)) return false;  // one state is enough
+    return seen.together() == Together::kAlways ? random <= kAlways : seen.together() != Together::kSometimes;
   };
   if (options.progress) observation.progress = [&](double share) { options.progress("states", share); };
   std::vector<ObservedPair> seen = observePairs(robot, scene, all, observation);
@@ -148,13 +129,13 @@ LearnedPairs learnPairs(const RobotModel& robot, const Srdf& srdf, const Resourc
   for (const std::string& joint : sampler.withoutLimits()) {
     pairs.warnings.push_back("joint " + joint + " has no limits: a full revolution is sampled");
   }
-  const PairSorter sorter(robot, srdf);
+  const SrdfPairs given(srdf);
   description.allowed.clear();
   for (BodyDescription& body : description.bodies) body.rigid_root.clear();  // such pairs are tested, too
   for (std::size_t i = 0; i < description.bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < description.bodies.size(); ++j) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[j];
-      if (!sorter.mustBeTested(a, b, pairs)) description.allowed.push_back({a.name, b.name, "not tested"});
+      if (!mustBeTested(robot, given, a, b, pairs)) description.allowed.push_back({a.name, b.name, "not tested"});
     }
   }
   const auto build_progress = [&](const std::string&, double share) {

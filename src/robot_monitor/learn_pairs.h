@@ -19,20 +19,13 @@ struct LearnOptions {
   std::function<void(const std::string& what, double share)> progress;  ///< may throw to cancel
 };
 
-/// A pair of links with collision shapes, in the order of the robot's links.
-struct LearnedPair {
-  std::string link_a, link_b;
-  std::string
-      reason;  ///< of the SRDF, as MoveIt's setup assistant has it: Adjacent, Always, Never, Default; or why not
-};
-
-/// The result for all pairs of a robot's links that have collision shapes.
+/// The result for all pairs of a robot's links that have collision shapes, in the order of its links.
 struct LearnedPairs {
-  std::vector<LearnedPair> disabled;     ///< need no check
-  std::vector<LearnedPair> touching;     ///< touch in some states: to be checked
-  std::vector<LearnedPair> close;        ///< come within the error bound of each other: to be checked
-  std::vector<LearnedPair> unknown;      ///< no result, and why: to be checked
-  std::vector<LearnedPair> at_default;   ///< of these, and Default: CONTACT or UNCERTAIN in the default state
+  std::vector<PairDecision> disabled;    ///< need no check: kAdjacent, kAlways, kNever, kAtRest
+  std::vector<PairDecision> touching;    ///< touch in some states: to be checked
+  std::vector<PairDecision> close;       ///< come within the error bound of each other: to be checked
+  std::vector<PairDecision> unknown;     ///< no result, and why: to be checked
+  std::vector<PairDecision> at_default;  ///< of these, and Default: CONTACT or UNCERTAIN in the default state
   std::size_t known = 0;                 ///< number of pairs decided by the given SRDF
   std::size_t states = 0, recorded = 0;  ///< tested states, besides the default state
   std::size_t always_states = 0;         ///< lower bound of the random states in which Always was tested

@@ -108,7 +108,7 @@ class Observer {
     }
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       ObservedPair& pair = observed_[k];
-      if (pair.has(Nearness::kHeld) && pair.areAlwaysTogether()) pair.hits_stop = entersDeeply(k);
+      if (pair.has(Nearness::kHeld) && pair.together() == Together::kAlways) pair.hits_stop = entersDeeply(k);
     }
     return std::move(observed_);
   }
@@ -169,8 +169,8 @@ class Observer {
     const std::vector<JointPositions>& states = observed_[k].overlaps;
     return std::any_of(states.begin(), states.end(), [&](const JointPositions& state) {
       const PairResult& pair = tester.test(state, true).front();
-      // Where parts of a body meet, the depth's error is large, as it may be deeper, but it is no less deep by more than
-      // the error of a field.
+      // Where parts of a body meet, the depth's error is large, as it may be deeper, but it is no less deep by more
+      // than the error of a field.
       return pair.deepest.depth - std::min(pair.deepest.depth_error, pair.contact_error.total()) > kTouch;
     });
   }
@@ -190,6 +190,14 @@ void ObservedPair::add(Nearness nearness, const JointPositions& state) {
   ++tested;
   seen_ |= 1U << static_cast<int>(nearness);
   if (nearness == Nearness::kOverlap && overlaps.size() < kMost) overlaps.push_back(state);
+}
+
+Together ObservedPair::together() const {
+  const bool is_apart = has(Nearness::kApart) || has(Nearness::kNear) || has(Nearness::kOpen);
+  if (has(Nearness::kUnknown) || tested == 0) return Together::kUnknown;
+  if (!is_apart && !hits_stop) return Together::kAlways;
+  if (has(Nearness::kOverlap)) return Together::kSometimes;
+  return has(Nearness::kNear) || has(Nearness::kOpen) || has(Nearness::kHeld) ? Together::kClose : Together::kNever;
 }
 
 std::vector<ObservedPair> observePairs(const RobotModel& robot, const Scene& scene,

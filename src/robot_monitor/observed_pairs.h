@@ -21,6 +21,16 @@ enum class Nearness {
   kUnknown   ///< not checked
 };
 
+/// How two links are in all states in which they were tested.
+enum class Together {
+  kUnknown,    ///< some could not be checked
+  kAlways,     ///< they overlap, or are held together, in each of them. Not if they were held in some states and enter
+               ///< each other by more in others: they are not held together by their joint, but hit a stop
+  kSometimes,  ///< they overlap in some
+  kClose,      ///< they come near, or may overlap
+  kNever
+};
+
 /// Two links in many states of the robot.
 class ObservedPair {
  public:
@@ -31,9 +41,7 @@ class ObservedPair {
   void add(Nearness nearness, const JointPositions& state);
   bool has(Nearness nearness) const { return (seen_ >> static_cast<int>(nearness) & 1U) != 0; }
 
-  /// Whether they overlapped, or were held together, in each state in which they were tested. Not if they were held in
-  /// some states and enter each other by more in others: they are not held together by their joint, but hit a stop.
-  bool areAlwaysTogether() const { return !hits_stop && (seen_ & ~kTogether) == 0 && (seen_ & kTogether) != 0; }
+  Together together() const;
 
   /// Whether they are CONTACT or UNCERTAIN at rest, for the monitor.
   bool mayOverlapAtRest() const { return mayTouch(rest_verdict); }
@@ -43,8 +51,6 @@ class ObservedPair {
   std::vector<JointPositions> overlaps;  ///< some of the states in which they overlap
 
  private:
-  static constexpr unsigned kTogether =
-      1U << static_cast<int>(Nearness::kHeld) | 1U << static_cast<int>(Nearness::kOverlap);
   unsigned seen_ = 0;  ///< a bit for each Nearness
 };
 

@@ -1,17 +1,25 @@
 #include "overlapping_pairs.h"
 
-#include <string>
+#include <algorithm>
+#include <set>
 #include <utility>
 
+#include "common/counted.h"
+#include "common/number_text.h"
+#include "model/name_pair.h"
 #include "observed_pairs.h"
+#include "robot/joint_chain.h"
 #include "robot/joint_sampler.h"
+#include "robot/srdf_pairs.h"
 
 namespace sdf_ccd {
 namespace {
 
 using Kind = OverlapRule::Kind;
+using Pairs = std::vector<PairDecision>;
 
 constexpr std::size_t kStates = 200;
+constexpr std::size_t kNamed = 6, kLines = 100;  // at most so many pairs in a sentence, and in the lines below it
 
 /// Decides which of a scene's pairs of links are set aside.
 class Decider {
@@ -31,68 +39,52 @@ class Decider {
     Observation observation;
     observation.random_states = rule_.kind == Kind::kNeighbours || rule_.kind == Kind::kLeaveOut ? kStates : 0;
     observation.is_open = [&](std::size_t pair, const ObservedPair& observed, std::size_t) {
-      return observed.areAlwaysTogether() && mayBeSetAside(pair) && !isNeighbours(pair, observed);
+      return observed.together() == Together::kAlways && mayBeSetAside(pair) && !isNeighbours(pair, observed);
     };
     return observePairs(robot_, scene_, pairs, observation);
   }
 
-  /// Why the pair is set aside; empty if it stays.
-  std::string reason(std::size_t pair, const ObservedPair& observed) const {
-    if (isKept(pair) || !mayBeSetAside(pair)) return {};
-    if (rule_.kind == Kind::kRest && observed.mayOverlapAtRest()) return "overlap at rest, or may" + kNoProof;
-    if (isNeighbours(pair, observed)) return "overlap at rest, with at most two movable joints between them" + kNoProof;
-    if (!isAlways(observed)) return {};
-    const std::string states = " in all of " + std::to_string(kStates) + " random states" + kNoProof;
-    return observed.at_rest == Nearness::kHeld
-               ? "come within 1 mm as neighbours at rest, and overlap or come within 1 mm" + states
-               : "overlap at rest and overlap or, as neighbours, come within 1 mm" + states;
+  /// The text is empty if the pair stays.
+  PairDecision decide(std::size_t pair, const ObservedPair& observed) const {
+    const PlannedPair& planned = scene_.pairs[pair];
+    PairDecision made{scene_.bodies[planned.body_a].name, scene_.bodies[planned.body_b].name};
+    made.a = planned.body_a;
+    made.b = planned.body_b;
+    made.depth = observed.rest_depth;
+    const bool is_always = observed.together() == Together::kAlways && observed.tested == 1 + kStates;
+    made.kind = observed.at_rest == Nearness::kOverlap ? (is_always ? PairKind::kAlways : PairKind::kAtRest)
+                                                       : (is_always ? PairKind::kHeld : PairKind::kMayAtRest);
+    if (!mayBeSetAside(pair) || matchesAny(rule_.kept, made.body_a, made.body_b)) return made;
+    if (rule_.kind == Kind::kRest && observed.mayOverlapAtRest()) {
+      made.text = "overlap at rest, or may";
+    } else if (isNeighbours(pair, observed)) {
+      made.text = "overlap at rest, with at most two movable joints between them";
+    } else if (is_always) {
+      made.text = std::string(made.kind == PairKind::kHeld ? "come within 1 mm as neighbours" : "overlap") +
+                  " at rest and overlap or, as neighbours, come within 1 mm in all of " + std::to_string(kStates) +
+                  " random states";
+    }
+    if (!made.text.empty()) made.text += ", which is no proof for others";
+    return made;
   }
-
-  RestOverlap atRest(std::size_t pair, const ObservedPair& observed) const {
-    const RestOverlap::Kind kind = observed.at_rest == Nearness::kOverlap ? RestOverlap::Kind::kOverlap
-                                   : observed.at_rest == Nearness::kHeld  ? RestOverlap::Kind::kTouching
-                                                                          : RestOverlap::Kind::kOpen;
-    return {nameA(pair), nameB(pair), kind, observed.rest_depth, isAlways(observed), false, isKept(pair)};
-  }
-
-  bool isKept(std::size_t pair) const { return matchesAny(rule_.kept, nameA(pair), nameB(pair)); }
-
-  const std::string& nameA(std::size_t pair) const { return scene_.bodies[scene_.pairs[pair].body_a].name; }
-  const std::string& nameB(std::size_t pair) const { return scene_.bodies[scene_.pairs[pair].body_b].name; }
 
  private:
-  inline static const std::string kNoProof = ", which is no proof for others";
-
   int linkOf(int body) const {
     const Body& of = scene_.bodies[body];
     return of.is_world || !of.failure.empty() ? -1 : robot_.find(of.name);
   }
 
   bool mayBeSetAside(std::size_t pair) const {
-    if (rule_.kind == Kind::kCheck || robot_.adjacent(nameA(pair), nameB(pair))) return false;
-    return rule_.kind == Kind::kRest ||
-           JointSampler::unboundedBetween(robot_, robot_.find(nameA(pair)), robot_.find(nameB(pair))).empty();
+    const int a = linkOf(scene_.pairs[pair].body_a), b = linkOf(scene_.pairs[pair].body_b);
+    if (rule_.kind == Kind::kCheck || robot_.adjacent(robot_.links()[a], robot_.links()[b])) return false;
+    return rule_.kind == Kind::kRest || JointSampler::unboundedBetween(robot_, a, b).empty();
   }
 
   bool isNeighbours(std::size_t pair, const ObservedPair& observed) const {
     constexpr std::size_t kJoints = 2;
+    const PlannedPair& planned = scene_.pairs[pair];
     return rule_.kind == Kind::kNeighbours && observed.at_rest == Nearness::kOverlap &&
-           movableJointsBetween(robot_.find(nameA(pair)), robot_.find(nameB(pair))) <= kJoints;
-  }
-
-  /// By the links' indices.
-  std::size_t movableJointsBetween(int a, int b) const {
-    std::size_t count = 0;
-    while (a != b) {
-      int& lower = a > b ? a : b;  // depth-first order: the greater index is no ancestor
-      count += robot_.jointAbove(lower).type != urdf::Joint::FIXED;
-      lower = robot_.parent(lower);
-    }
-    return count;
-  }
-
-  static bool isAlways(const ObservedPair& observed) {
-    return observed.areAlwaysTogether() && observed.tested == 1 + kStates;
+           jointsThatMove(robot_, linkOf(planned.body_a), linkOf(planned.body_b)).size() <= kJoints;
   }
 
   const RobotModel& robot_;
@@ -100,25 +92,96 @@ class Decider {
   const Scene& scene_;
 };
 
+std::string escaped(const std::string& text) {
+  std::string xml;
+  for (const char c : text) {
+    xml += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  }
+  return xml;
+}
+
+/// A line of an SRDF for each pair that the user has not named.
+std::string srdfLines(const Pairs& pairs, const OverlapRule& rule) {
+  std::vector<std::string> lines;
+  for (const PairDecision& pair : pairs) {
+    if (matchesAny(rule.kept, pair.body_a, pair.body_b)) continue;
+    lines.push_back("\n<disable_collisions link1=\"" + escaped(pair.body_a) + "\" link2=\"" + escaped(pair.body_b) +
+                    "\" reason=\"" + srdfReason(pair.kind) + "\"/>");
+  }
+  return firstOf(lines, kLines, "", "\nand ");
+}
+
+/// How two links are at rest: " (30 mm)", " (within 1 mm)", " (may overlap)"; empty for a depth that is not known.
+std::string restText(const PairDecision& pair) {
+  if (pair.depth > 0.0) return " (" + lengthText(pair.depth) + ")";
+  if (pair.kind == PairKind::kHeld) return " (within 1 mm)";
+  return pair.kind == PairKind::kMayAtRest ? " (may overlap)" : "";
+}
+
+/// "3 pairs that overlap at rest are WHAT: a - b (30 mm), c - d (within 1 mm), ...".
+std::string sentence(const Pairs& pairs, const std::string& what) {
+  std::vector<std::string> names;
+  for (const PairDecision& pair : pairs) names.push_back(pairName(pair.body_a, pair.body_b) + restText(pair));
+  const bool is_one = pairs.size() == 1;
+  return counted(pairs.size(), "pair") + (is_one ? " that overlaps at rest is " : " that overlap at rest are ") + what +
+         ": " + firstOf(names, kNamed);
+}
+
 }  // namespace
 
-std::vector<RestOverlap> applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene) {
-  std::vector<RestOverlap> overlaps;
-  std::vector<LeftOutReason> reasons(scene.pairs.size());
+std::vector<PairDecision> applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene) {
+  Pairs found, set_aside;
   const Decider decider(robot, rule, scene);
   const std::vector<std::size_t> tested = decider.tested();
   const std::vector<ObservedPair> observed = decider.observe(tested);
   for (std::size_t k = 0; k < tested.size(); ++k) {
-    std::string reason = decider.reason(tested[k], observed[k]);
-    if (reason.empty() && !observed[k].mayOverlapAtRest()) continue;
-    overlaps.push_back(decider.atRest(tested[k], observed[k]));
-    overlaps.back().is_set_aside = !reason.empty();
-    reasons[tested[k]] = {std::move(reason), overlaps.back().depth};
+    const PairDecision pair = decider.decide(tested[k], observed[k]);
+    if (!pair.text.empty()) set_aside.push_back(pair);
+    if (!pair.text.empty() || observed[k].mayOverlapAtRest()) found.push_back(pair);
   }
-  leaveOut(reasons, scene);
-  for (const std::string& text : {setAsideText(overlaps), checkedOverlapsText(overlaps)})
-    if (!text.empty()) scene.warnings.push_back(text);
-  return overlaps;
+  leaveOut(set_aside, scene);
+  const OverlapNotes notes = overlapNotes(found, rule, scene);
+  for (const std::string& note : {notes.set_aside, notes.checked})
+    if (!note.empty()) scene.overlap_notes.push_back(note);
+  return found;
+}
+
+OverlapNotes overlapNotes(const std::vector<PairDecision>& pairs, const OverlapRule& rule, const Scene& scene) {
+  if (pairs.empty()) return {};
+  std::set<NamePair> now_checked, now_set_aside;
+  for (const PlannedPair& pair : scene.pairs) {
+    const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+    if (!a.is_world && !b.is_world) now_checked.insert(namePair(a.name, b.name));
+  }
+  for (const PairDecision& pair : scene.left_out)
+    if (pair.kind >= PairKind::kAlways) now_set_aside.insert(namePair(pair.body_a, pair.body_b));
+  Pairs checked, set_aside;
+  for (const PairDecision& pair : pairs) {
+    const NamePair names = namePair(pair.body_a, pair.body_b);
+    if (now_checked.count(names) > 0) checked.push_back(pair);
+    if (now_set_aside.count(names) > 0) set_aside.push_back(pair);
+  }
+  for (Pairs* some : {&checked, &set_aside})
+    std::stable_sort(some->begin(), some->end(), [](const PairDecision& a, const PairDecision& b) {
+      const auto rank = [](const PairDecision& pair) {
+        return std::pair(pair.kind == PairKind::kMayAtRest, -pair.depth);
+      };
+      return rank(a) < rank(b);
+    });
+  OverlapNotes notes;
+  if (!set_aside.empty())
+    notes.set_aside = sentence(set_aside, "set aside") +
+                      "\nTheir contacts are not seen; checked_pairs, or overlapping_pairs, has them checked. Lines for "
+                      "an SRDF that make it permanent:" +
+                      srdfLines(set_aside, rule);
+  if (checked.empty()) return notes;
+  const std::string lines = srdfLines(checked, rule);
+  notes.checked =
+      sentence(checked, "checked") +
+      (lines.empty()
+           ? "\nThis is requested."
+           : "\nLines for an SRDF that set them aside, if it is known that these contacts mean nothing:" + lines);
+  return notes;
 }
 
 }  // namespace sdf_ccd

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "model/pair_rules.h"
-#include "robot_monitor/rest_overlaps.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_model.h"
 
@@ -23,15 +23,26 @@ struct OverlapRule {
 
 /// Finds pairs of links that overlap, touch as neighbours, or may overlap at rest, and removes those from the scene
 /// that the rule sets aside: they would be in contact nearly always, which costs most time and says little. That is no
-/// proof: contacts of these pairs are not seen. LeftOut::reason has their depth at rest.
+/// proof: contacts of these pairs are not seen.
 ///
 /// `Always` is tested in 200 random states, drawn as by JointSampler. A pair that is apart in one of a hundred states
 /// is taken for one that overlaps always in 13 % of cases, one apart in one of twenty in 0.004 %. Adjacent links, which
 /// are in the scene only by request, always stay; so do pairs with a planar, floating or unlimited prismatic joint
 /// between them, except by kRest.
-/// @param scene  bodies whose names are links; others are skipped.
-/// @return the pairs that are set aside, and those that stay although they are not CLEAR at rest; Scene::warnings tell
-/// of both.
-std::vector<RestOverlap> applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene);
+/// @param scene  bodies whose names are links; others are skipped. Its left_out gets those that are set aside, its
+/// overlap_notes tell of all.
+/// @return all of them, of kAlways, kHeld, kAtRest or kMayAtRest; with a text if they are set aside.
+std::vector<PairDecision> applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene);
+
+/// What the user must know of pairs that overlap at rest, the deepest first: "3 pairs that overlap at rest are set
+/// aside: wheel - base (30 mm), ...", with the lines of an SRDF that make it permanent; the same of those that are
+/// checked, with the lines that would set them aside. Each is empty if there is none.
+struct OverlapNotes {
+  std::string set_aside, checked;
+};
+
+/// @param pairs  of applyOverlapRule() with this rule; as they are in this version of their scene, as requests may have
+/// had pairs checked, or left out for other reasons.
+OverlapNotes overlapNotes(const std::vector<PairDecision>& pairs, const OverlapRule& rule, const Scene& scene);
 
 }  // namespace sdf_ccd

@@ -5,6 +5,7 @@
 
 #include "common/number_text.h"
 #include "common/text_limits.h"
+#include "robot/srdf_pairs.h"
 #include "robot_monitor/learn_pairs.h"
 
 namespace sdf_ccd {
@@ -61,11 +62,11 @@ std::string srdfWith(const LearnedPairs& pairs, const RobotModel& robot, const s
   }
   tinyxml2::XMLElement* root = document.RootElement();
   root->InsertEndChild(document.NewComment(asComment(commentText(pairs)).c_str()));
-  for (const LearnedPair& pair : pairs.disabled) {
+  for (const PairDecision& pair : pairs.disabled) {
     tinyxml2::XMLElement* element = document.NewElement("disable_collisions");
-    element->SetAttribute("link1", pair.link_a.c_str());
-    element->SetAttribute("link2", pair.link_b.c_str());
-    element->SetAttribute("reason", pair.reason.c_str());
+    element->SetAttribute("link1", pair.body_a.c_str());
+    element->SetAttribute("link2", pair.body_b.c_str());
+    element->SetAttribute("reason", srdfReason(pair.kind));
     root->InsertEndChild(element);
   }
   tinyxml2::XMLPrinter printer;

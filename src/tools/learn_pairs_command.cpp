@@ -13,6 +13,7 @@
 #include "output_file.h"
 #include "progress_bar.h"
 #include "read_text.h"
+#include "robot/srdf_pairs.h"
 #include "robot_monitor/learn_pairs.h"
 #include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
@@ -53,20 +54,20 @@ class Bars {
 };
 
 /// @param most  at most so many are printed.
-void printList(const std::string& heading, const std::vector<LearnedPair>& pairs,
+void printList(const std::string& heading, const std::vector<PairDecision>& pairs,
                std::size_t most = std::numeric_limits<std::size_t>::max()) {
   if (pairs.empty()) return;
   std::cout << heading << pairs.size() << "\n";
   for (std::size_t i = 0; i < std::min(most, pairs.size()); ++i) {
-    const LearnedPair& pair = pairs[i];
-    std::cout << "  " << pairName(pair.link_a, pair.link_b) << (pair.reason.empty() ? "" : ": " + pair.reason) << "\n";
+    const PairDecision& pair = pairs[i];
+    std::cout << "  " << pairName(pair.body_a, pair.body_b) << (pair.text.empty() ? "" : ": " + pair.text) << "\n";
   }
   if (pairs.size() > most) std::cout << "  and " << pairs.size() - most << " more\n";
 }
 
 void printReport(const LearnedPairs& pairs) {
   std::map<std::string, std::size_t> reasons;
-  for (const LearnedPair& pair : pairs.disabled) ++reasons[pair.reason];
+  for (const PairDecision& pair : pairs.disabled) ++reasons[srdfReason(pair.kind)];
   const std::size_t states = 1 + pairs.states + pairs.recorded;
   std::cout << "states           " << pairs.states << " random (seed " << pairs.seed << "), " << pairs.recorded
             << " recorded, and the default\n"
@@ -130,8 +131,8 @@ void run(const LearnPairsArguments& arguments) {
   printReport(pairs);
   if (pairs.unknown.empty()) return;
   std::cerr << "sdf_ccd: " << counted(pairs.unknown.size(), "pair") << " could not be classified, for example "
-            << pairName(pairs.unknown.front().link_a, pairs.unknown.front().link_b) << ": "
-            << pairs.unknown.front().reason << std::endl;
+            << pairName(pairs.unknown.front().body_a, pairs.unknown.front().body_b) << ": "
+            << pairs.unknown.front().text << std::endl;
   throw PartlyDone();
 }
 

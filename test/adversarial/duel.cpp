@@ -77,7 +77,7 @@ Duel::Duel(Actor a, Actor b, const BodyOptions& scene, const MonitorOptions& mon
   }
   auto built =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(scene)), scene));
-  if (built->pairs.empty()) throw std::logic_error(name() + ": " + built->left_out.at(0).reason.text);
+  if (built->pairs.empty()) throw std::logic_error(name() + ": " + built->left_out.at(0).text);
   bound_ = built->contact_bound.total();
   size_ = a_.radius() + b_.radius();
   monitor_ = std::make_unique<Monitor>(std::move(built), monitor);

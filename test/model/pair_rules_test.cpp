@@ -59,8 +59,8 @@ SceneDescription sceneOf(const std::vector<std::string>& names) {
 }
 
 std::string reasonOf(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const AllowedPair& pair : scene.allowed)
-    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.reason;
+  for (const PairDecision& pair : scene.allowed)
+    if ((pair.body_a == a && pair.body_b == b) || (pair.body_a == b && pair.body_b == a)) return pair.text;
   return "";
 }
 

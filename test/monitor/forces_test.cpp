@@ -54,7 +54,7 @@ TEST(Forces, PlanLeavesFieldsAndShellsOut) {
     EXPECT_TRUE(needs.triangles);
   }
   std::size_t named = 0;
-  for (const LeftOut& left_out : plan.left_out) named += left_out.reason.text == "its field and shell are being built";
+  for (const LeftOutPart& part : plan.parts_left_out) named += part.reason == "its field and shell are being built";
   EXPECT_EQ(named, 2U);
 }
 

@@ -20,7 +20,7 @@ TEST(NoPairs, AreToldWithTheReason) {
   EXPECT_EQ(why({{a, b, box}, {{"a", "b", "SRDF: Never"}, {"a", "box", "far"}, {"b", "box", "far"}}}),
             "nothing is checked: all pairs are left out, 2 of them because of: far");
   Scene scene = *build({a, b});
-  leaveOut({{"they overlap"}}, scene);
+  leaveOut({{"a", "b", "they overlap", PairKind::kAtRest, 0.0, {}, 0, 1}}, scene);
   EXPECT_NE(planTable(scene).find("notes:\n  nothing is checked: all pairs are left out, 1 of them because of: they "
                                   "overlap\n"),
             std::string::npos)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "model/name_pair.h"
 #include "oracle/scene_case.h"
 
 namespace sdf_ccd::scene_plan_test {
@@ -21,8 +22,10 @@ std::vector<bool> which(const ScenePlan& plan, bool BodyNeeds::*need) {
 }
 
 std::string reasonOf(const ScenePlan& plan, const std::string& what) {
-  for (const LeftOut& item : plan.left_out)
-    if (item.what() == what) return item.reason.text;
+  for (const PairDecision& pair : plan.left_out)
+    if ("pair " + pairName(pair.body_a, pair.body_b) == what) return pair.text;
+  for (const LeftOutPart& part : plan.parts_left_out)
+    if (part.kind + " of " + part.body == what) return part.reason;
   return "";
 }
 
@@ -48,6 +51,33 @@ TEST(ScenePlan, LeavesOutPairsThatCannotMove) {
   const ScenePlan plan = planScene({bodies, {}});
   EXPECT_EQ(reasonOf(plan, "pair a - tool"), "in the same frame");
   EXPECT_EQ(plan.pairs.size(), 4u);
+}
+
+/// A user's wish is not watched, but a rigid joint is, also where the pair is adjacent too.
+TEST(ScenePlan, OfSeveralReasonsTheFirstInOrderCounts) {
+  SceneDescription scene{{body("a", kBall), body("b", kBall)}, {}};
+  scene.bodies[1].frame = "a";
+  const auto decided = [&] {
+    const ScenePlan plan = planScene(scene);
+    EXPECT_TRUE(plan.pairs.empty());
+    return plan.left_out.at(0);
+  };
+  scene.allowed = {{"b", "a", "overlap", PairKind::kAtRest}, {"a", "b", "adjacent", PairKind::kAdjacent}};
+  EXPECT_EQ(decided().kind, PairKind::kRigid);
+  EXPECT_TRUE(decided().rigid);
+  scene.bodies[1].frame = "b";
+  EXPECT_EQ(decided().text, "adjacent");
+  for (const bool is_in_a : {false, true}) {
+    scene.bodies[1].frame = is_in_a ? "a" : "b";
+    for (const PairKind kind : {PairKind::kSrdf, PairKind::kUser, PairKind::kTouchLinks, PairKind::kRequest}) {
+      scene.allowed.push_back({"a", "b", "wish", kind});
+      EXPECT_EQ(decided().kind, kind);
+      EXPECT_FALSE(decided().rigid);
+      std::reverse(scene.allowed.begin(), scene.allowed.end());
+      EXPECT_EQ(decided().kind, kind) << "in any order of rows";
+    }
+    scene.allowed.resize(0);
+  }
 }
 
 /// Such as of a map that the robot's base carries: while it drives, obstacles come in it.
@@ -162,8 +192,9 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_TRUE(planScene(scene, {0.1}).pairs[0].a_shell_b_field);
   const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});
   EXPECT_FALSE(two.needs[0].shell);
-  ASSERT_EQ(two.left_out.size(), 2U);
-  EXPECT_EQ(two.left_out[0].what(), "shell of table");
+  ASSERT_EQ(two.parts_left_out.size(), 2U);
+  EXPECT_EQ(two.parts_left_out[0].kind, "shell");
+  EXPECT_EQ(two.parts_left_out[0].body, "table");
 }
 
 TEST(ScenePlan, TableNamesLinksThatAreOnlySeen) {

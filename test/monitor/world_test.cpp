@@ -100,7 +100,7 @@ class ChangingWorld {
   void dropPairs(const std::string& name) {
     auto& allowed = description_.allowed;
     allowed.erase(std::remove_if(allowed.begin(), allowed.end(),
-                                 [&](const AllowedPair& pair) { return pair.body_a == name || pair.body_b == name; }),
+                                 [&](const PairDecision& pair) { return pair.body_a == name || pair.body_b == name; }),
                   allowed.end());
   }
   void changeOnce() {
@@ -376,13 +376,13 @@ TEST(World, LeavesOutWhatTheFirstSceneLeftOut) {
   const BodyOptions options = coarse();
   const ScenePlan plan = planOf(description, options);
   Scene scene = buildScene(description, plan, options);
-  leaveOut({{}, {"overlap", 0.02}, {}}, scene);
+  leaveOut({{"a", "c", "overlap", PairKind::kAtRest, 0.02, {}, 0, 2}}, scene);
   WorldEditor editor(options);
   const auto first = editor.begin(description, plan, scene);
   const auto second = editor.next(*first->description);
   ASSERT_EQ(second->scene->pairs.size(), 2U);
-  EXPECT_EQ(second->description->allowed.back().reason, "overlap");
-  EXPECT_EQ(second->scene->left_out.back().reason.depth, 0.02);
+  EXPECT_EQ(second->description->allowed.back().text, "overlap");
+  EXPECT_EQ(second->scene->left_out.back().depth, 0.02);
   EXPECT_EQ(second->prepared, 0);
 }
 

@@ -25,8 +25,8 @@ TEST(Srdf, ReadsPairsWithTheirReasons) {
   ASSERT_EQ(srdf.disabled.size(), 2u);
   EXPECT_EQ(srdf.disabled[0].body_a, "a");
   EXPECT_EQ(srdf.disabled[0].body_b, "b");
-  EXPECT_EQ(srdf.disabled[0].reason, "SRDF: Adjacent");
-  EXPECT_EQ(srdf.disabled[1].reason, "SRDF: no reason given");
+  EXPECT_EQ(srdf.disabled[0].text, "SRDF: Adjacent");
+  EXPECT_EQ(srdf.disabled[1].text, "SRDF: no reason given");
   EXPECT_EQ(srdf.disabled_by_default, std::vector<std::string>{"d"});
   ASSERT_EQ(srdf.enabled.size(), 1u);
   EXPECT_EQ(srdf.enabled[0], (std::pair<std::string, std::string>("d", "a")));

@@ -14,6 +14,7 @@
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "robot/joint_sampler.h"
+#include "robot/srdf_pairs.h"
 
 namespace sdf_ccd::learn_pairs_test {
 
@@ -62,11 +63,11 @@ LearnedPairs learn(const std::string& urdf, const LearnOptions& options = coarse
   return learnPairs(RobotModel(urdf), srdf, noResource, options);
 }
 
-Names namesOf(const std::vector<LearnedPair>& pairs, const std::string& reason = "") {
+Names namesOf(const std::vector<PairDecision>& pairs, const std::string& reason = "") {
   Names names;
-  for (const LearnedPair& pair : pairs) {
-    if (reason.empty() || pair.reason == reason) {
-      names.insert(std::min(pair.link_a, pair.link_b) + " " + std::max(pair.link_a, pair.link_b));
+  for (const PairDecision& pair : pairs) {
+    if (reason.empty() || srdfReason(pair.kind) == reason) {
+      names.insert(std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b));
     }
   }
   return names;
@@ -87,7 +88,7 @@ TEST(LearnPairs, FindsWhatTheAnglesSay) {
   for (const char* pair : {"b f", "c f", "e f"}) never.insert(pair);
   EXPECT_EQ(namesOf(pairs.disabled, "Never"), never);
   EXPECT_EQ(namesOf(pairs.unknown), (Names{"a h", "b h", "base h", "c h", "d h", "e h", "f h", "g h"}));
-  EXPECT_EQ(pairs.unknown.front().reason, "joint to_h is unbounded");
+  EXPECT_EQ(pairs.unknown.front().text, "joint to_h is unbounded");
   EXPECT_EQ(pairs.warnings, std::vector<std::string>{"joint to_g has no limits: a full revolution is sampled"});
   EXPECT_TRUE(pairs.close.empty());
   EXPECT_TRUE(namesOf(pairs.at_default).count("a c") > 0);  // both at 0; b is at 0.5
@@ -228,7 +229,7 @@ TEST(LearnPairs, TheFileKeepsWhatWasGivenAndIsHonest) {
   const std::string text = srdfWith(pairs, robot, given);
   const Srdf srdf = parseSrdf(text);
   EXPECT_EQ(srdf.disabled.size(), 1u + pairs.disabled.size());
-  EXPECT_EQ(srdf.disabled[0].reason, "SRDF: User");
+  EXPECT_EQ(srdf.disabled[0].text, "SRDF: User");
   for (const char* part : {"<!-- mine -->", "<group name=\"arm\">", "1000 random states (seed 1)", "NO PROOF",
                            "less than 0.3 % of states", "reason=\"Always\"/>"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
@@ -251,7 +252,7 @@ TEST(LearnPairs, AMeshThatIsMissingCostsItsPairsAlone) {
                                    "</collision></link>" +
                                    joint("m", "b", "fixed") + sphere("c", 1.0) + joint("m", "c", "fixed") + "</robot>");
   EXPECT_EQ(namesOf(pairs.unknown), (Names{"a b", "b c"}));
-  EXPECT_NE(pairs.unknown[0].reason.find("package://x/y.stl"), std::string::npos);
+  EXPECT_NE(pairs.unknown[0].text.find("package://x/y.stl"), std::string::npos);
   EXPECT_EQ(namesOf(pairs.disabled, "Never"), Names{"a c"});
 }
 
@@ -317,12 +318,12 @@ TEST(LearnPairs, AgreesWithTheSetupAssistantOnAPanda) {
   options.states = 1000;
   const LearnedPairs pairs = learnPairs(robot, {}, loader, options);
   std::map<std::string, std::string> reasons;
-  for (const AllowedPair& pair : theirs.disabled) {
-    reasons[std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b)] = pair.reason;
+  for (const PairDecision& pair : theirs.disabled) {
+    reasons[std::min(pair.body_a, pair.body_b) + " " + std::max(pair.body_a, pair.body_b)] = pair.text;
   }
-  for (const LearnedPair& pair : pairs.disabled) {
+  for (const PairDecision& pair : pairs.disabled) {
     const std::string names = *namesOf({pair}).begin();
-    EXPECT_EQ(reasons[names], "SRDF: " + pair.reason) << names;
+    EXPECT_EQ(reasons[names], std::string("SRDF: ") + srdfReason(pair.kind)) << names;
     reasons.erase(names);
   }
   EXPECT_LE(reasons.size(),

@@ -85,10 +85,11 @@ double depthAfter(const std::string& begin, const std::string& text) {
   return at == std::string::npos ? -1.0 : std::stod(text.substr(at + begin.size()));
 }
 
-std::set<std::string> namesOf(bool set_aside, const std::vector<RestOverlap>& pairs) {
+/// Those of the pairs that the rule sets aside, or not.
+std::set<std::string> namesOf(bool set_aside, const std::vector<PairDecision>& pairs) {
   std::set<std::string> names;
-  for (const RestOverlap& pair : pairs)
-    if (pair.is_set_aside == set_aside) names.insert(pair.link_a + " " + pair.link_b);
+  for (const PairDecision& pair : pairs)
+    if (!pair.text.empty() == set_aside) names.insert(pair.body_a + " " + pair.body_b);
   return names;
 }
 
@@ -104,23 +105,25 @@ TEST(OverlappingPairs, EachRuleSetsItsOwnAside) {
                                                        {OverlapRule::Kind::kCheck, {}}};
   for (const auto& [kind, names] : expected) {
     Cart cart;
-    const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {kind, {}}, cart.scene);
+    const std::vector<PairDecision> found = applyOverlapRule(cart.robot, {kind, {}}, cart.scene);
     EXPECT_EQ(namesOf(true, found), names) << int(kind);
     Names checked = all;
     for (const std::string& name : names) checked.erase(name);
     EXPECT_EQ(namesOf(false, found), checked) << int(kind);
     for (const std::string& name : all) EXPECT_EQ(cart.has(name), checked.count(name) > 0) << name;
-    for (const RestOverlap& pair : found) {
-      const bool is_open = pair.link_b == "arm" && pair.link_a == "ghost";
-      EXPECT_EQ(pair.kind, is_open ? RestOverlap::Kind::kOpen : RestOverlap::Kind::kOverlap) << pair.link_b;
-      if (pair.link_b == "wheel") {
+    for (const PairDecision& pair : found) {
+      const bool is_open = pair.body_b == "arm" && pair.body_a == "ghost";
+      const bool is_always = kind == OverlapRule::Kind::kLeaveOut && pair.body_b == "wheel";
+      EXPECT_EQ(pair.kind, is_open     ? PairKind::kMayAtRest
+                           : is_always ? PairKind::kAlways
+                                       : PairKind::kAtRest)
+          << pair.body_b;
+      if (pair.body_b == "wheel") {
         EXPECT_NEAR(pair.depth, 0.03, 0.002);
       }
-      if (pair.link_b == "arm" && !is_open) {
+      if (pair.body_b == "arm" && !is_open) {
         EXPECT_NEAR(pair.depth, 0.05, 0.01);
       }
-      const bool is_tested = kind == OverlapRule::Kind::kLeaveOut;
-      EXPECT_EQ(pair.is_always, is_tested && pair.link_b == "wheel") << pair.link_b;
     }
   }
 }
@@ -144,7 +147,7 @@ TEST(OverlappingPairs, OfFarLinksStayUnlessTheyAlwaysOverlap) {
     std::vector<std::string> warnings;
     const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
     Scene scene = buildScene(description, planScene(description), coarse());
-    const std::vector<RestOverlap> found = applyOverlapRule(robot, {}, scene);
+    const std::vector<PairDecision> found = applyOverlapRule(robot, {}, scene);
     EXPECT_EQ(namesOf(true, found).size() + namesOf(false, found).size(), 1U);
     return namesOf(true, found);
   };
@@ -156,58 +159,58 @@ TEST(OverlappingPairs, OfFarLinksStayUnlessTheyAlwaysOverlap) {
 TEST(OverlappingPairs, AreToldWithLinesForAnSrdf) {
   Cart cart;
   const std::size_t before = cart.scene.pairs.size(), left_out = cart.scene.left_out.size();
-  const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {}, cart.scene);
+  const std::vector<PairDecision> found = applyOverlapRule(cart.robot, {}, cart.scene);
   EXPECT_EQ(cart.scene.pairs.size(), before - 2);
   ASSERT_EQ(cart.scene.left_out.size(), left_out + 2);
-  const LeftOut& last = cart.scene.left_out.back();
-  EXPECT_EQ(last.reason.text,
-            "overlap at rest, with at most two movable joints between them, which is no proof for others");
-  EXPECT_GT(last.reason.depth, 0.02);
-  ASSERT_EQ(cart.scene.warnings, (std::vector<std::string>{setAsideText(found), checkedOverlapsText(found)}));
-  EXPECT_EQ(setAsideText(found).find("2 pairs that overlap at rest are set aside: base - arm ("), 0U);
-  EXPECT_EQ(checkedOverlapsText(found).find("2 pairs that overlap at rest are checked: base - ghost ("), 0U);
-  EXPECT_NE(checkedOverlapsText(found).find("ghost - arm (may overlap)\n"), std::string::npos);
-  EXPECT_NE(planTable(cart.scene).find(setAsideText(found)), std::string::npos);
+  const PairDecision& last = cart.scene.left_out.back();
+  EXPECT_EQ(last.text, "overlap at rest, with at most two movable joints between them, which is no proof for others");
+  EXPECT_GT(last.depth, 0.02);
+  const OverlapNotes notes = overlapNotes(found, {}, cart.scene);
+  ASSERT_EQ(cart.scene.overlap_notes, (std::vector<std::string>{notes.set_aside, notes.checked}));
+  EXPECT_EQ(notes.set_aside.find("2 pairs that overlap at rest are set aside: base - arm ("), 0U);
+  EXPECT_EQ(notes.checked.find("2 pairs that overlap at rest are checked: base - ghost ("), 0U);
+  EXPECT_NE(notes.checked.find("ghost - arm (may overlap)\n"), std::string::npos) << notes.checked;
+  EXPECT_NE(planTable(cart.scene).find(notes.set_aside), std::string::npos);
 
   // With these lines nothing is left to be told.
   std::string lines;
-  for (const std::string& warning : cart.scene.warnings) lines += warning.substr(warning.find("\n<"));
+  for (const std::string& note : cart.scene.overlap_notes) lines += note.substr(note.find("\n<"));
   const Srdf srdf = parseSrdf("<robot name='cart'>" + lines + "</robot>");
   EXPECT_EQ(srdf.disabled.size(), 4U);
   std::vector<std::string> warnings;
   const SceneDescription description = describeRobot(cart.robot, srdf, noResource, {}, warnings);
   Scene scene = buildScene(description, planScene(description), coarse());
   EXPECT_TRUE(applyOverlapRule(cart.robot, {}, scene).empty());
-  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_TRUE(scene.overlap_notes.empty());
   EXPECT_EQ(scene.pairs.size(), before - 4);
 }
 
 TEST(OverlappingPairs, ThoseThatTheUserNamesStay) {
   Cart cart;
-  const std::vector<RestOverlap> found =
-      applyOverlapRule(cart.robot, {OverlapRule::Kind::kRest, {{"wh*", "base"}}}, cart.scene);
+  const OverlapRule rule{OverlapRule::Kind::kRest, {{"wh*", "base"}}};
+  const std::vector<PairDecision> found = applyOverlapRule(cart.robot, rule, cart.scene);
   EXPECT_TRUE(cart.has("base wheel"));
-  const std::string told = checkedOverlapsText(found);
+  const std::string told = overlapNotes(found, rule, cart.scene).checked;
   EXPECT_NEAR(depthAfter("1 pair that overlaps at rest is checked: base - wheel (", told), 30.0, 2.0) << told;
   EXPECT_EQ(told.find("disable_collisions"), std::string::npos) << told;
 }
 
-/// What requests change is told as it then is.
+/// What requests change is told as it then is: one has the arm checked, and the ghost left out.
 TEST(OverlappingPairs, AreToldAsAnotherVersionHasThem) {
   Cart cart;
-  const std::vector<RestOverlap> found = applyOverlapRule(cart.robot, {}, cart.scene);
-  EXPECT_EQ(namesOf(true, overlapsIn(cart.scene, found)), namesOf(true, found));
-  // A request has the arm checked, and the ghost left out.
+  const std::vector<PairDecision> found = applyOverlapRule(cart.robot, {}, cart.scene);
   Scene next = Cart().scene;
-  std::vector<LeftOutReason> reasons(next.pairs.size());
-  for (std::size_t p = 0; p < reasons.size(); ++p) {
-    const std::string name = pairName(next, next.pairs[p]);
-    if (name == "base - wheel" || name == "base - ghost") reasons[p].text = "left out";
+  std::vector<PairDecision> left_out;
+  for (PairDecision pair : found) {
+    if (pair.body_b != "wheel" && pair.body_b != "ghost") continue;
+    if (pair.body_b == "ghost") pair.kind = PairKind::kRequest;
+    left_out.push_back(pair);
   }
-  leaveOut(reasons, next);
-  const std::vector<RestOverlap> now = overlapsIn(next, found);
-  EXPECT_EQ(namesOf(true, now), Names{"base wheel"});
-  EXPECT_EQ(namesOf(false, now), (Names{"base arm", "ghost arm"}));
+  leaveOut(left_out, next);
+  const OverlapNotes notes = overlapNotes(found, {}, next);
+  EXPECT_EQ(notes.set_aside.find("1 pair that overlaps at rest is set aside: base - wheel ("), 0U) << notes.set_aside;
+  EXPECT_EQ(notes.checked.find("2 pairs that overlap at rest are checked: base - arm ("), 0U) << notes.checked;
+  EXPECT_NE(notes.checked.find("ghost - arm"), std::string::npos) << notes.checked;
 }
 
 /// Seven wheels in a base, each 5 mm deeper than the one before, on casters so that they are not adjacent.
@@ -233,17 +236,19 @@ TEST(OverlappingPairs, AllHaveTheirDepthInThePlanAndTheDeepestAreNamed) {
     const double depth = 10.0 + 5.0 * i;  // [mm]
     const std::string pair = "base - wheel" + std::to_string(i);
     EXPECT_NEAR(depthAfter(pair + " (", lines), depth, 0.5) << lines;
-    const auto left_out = std::find_if(scene.left_out.begin(), scene.left_out.end(),
-                                       [&](const LeftOut& entry) { return entry.what() == "pair " + pair; });
+    const auto left_out = std::find_if(scene.left_out.begin(), scene.left_out.end(), [&](const PairDecision& entry) {
+      return pairName(entry.body_a, entry.body_b) == pair;
+    });
     ASSERT_NE(left_out, scene.left_out.end()) << pair;
-    EXPECT_NEAR(1e3 * left_out->reason.depth, depth, 0.5);
+    EXPECT_NEAR(1e3 * left_out->depth, depth, 0.5);
   }
-  ASSERT_EQ(scene.warnings.size(), 1U);
-  const std::string told = scene.warnings[0].substr(0, scene.warnings[0].find('\n'));
+  ASSERT_EQ(scene.overlap_notes.size(), 1U);
+  const std::string& note = scene.overlap_notes[0];
+  const std::string told = note.substr(0, note.find('\n'));
   EXPECT_NE(told.find("set aside: base - wheel6"), std::string::npos) << told;
   EXPECT_NE(told.find(" and 1 more"), std::string::npos) << told;
   EXPECT_EQ(told.find("wheel0"), std::string::npos) << told;
-  EXPECT_NE(scene.warnings[0].find("link2=\"wheel0\" reason=\"Always\"/>"), std::string::npos) << scene.warnings[0];
+  EXPECT_NE(note.find("link2=\"wheel0\" reason=\"Always\"/>"), std::string::npos) << note;
 }
 
 /// Bodies of a robot between which are only links without shapes, as "a b", that stay.
@@ -317,10 +322,11 @@ TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {
     const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
     Scene scene = buildScene(description, planScene(description), coarse());
     applyOverlapRule(robot, {}, scene);
-    EXPECT_EQ(scene.warnings.size(), scene.pairs.empty() ? 1U : 0U) << "at rest it is CLEAR";
+    EXPECT_EQ(scene.overlap_notes.size(), scene.pairs.empty() ? 1U : 0U) << "at rest it is CLEAR";
     if (scene.pairs.empty()) {
-      EXPECT_NE(scene.warnings.at(0).find("rail - car (within 1 mm)"), std::string::npos) << scene.warnings[0];
-      EXPECT_EQ(scene.left_out.back().reason.text.find("come within 1 mm as neighbours at rest, and"), 0U);
+      EXPECT_NE(scene.overlap_notes.at(0).find("rail - car (within 1 mm)"), std::string::npos)
+          << scene.overlap_notes[0];
+      EXPECT_EQ(scene.left_out.back().kind, PairKind::kHeld);
     }
     return scene.pairs.size();
   };
@@ -337,10 +343,10 @@ TEST(OverlappingPairs, CopiesOfALinkMayOverlap) {
   const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
   for (const OverlapRule::Kind kind : {OverlapRule::Kind::kNeighbours, OverlapRule::Kind::kRest}) {
     Scene scene = buildScene(description, planScene(description), optionsForContacts());
-    const std::vector<RestOverlap> found = applyOverlapRule(robot, {kind, {}}, scene);
+    const std::vector<PairDecision> found = applyOverlapRule(robot, {kind, {}}, scene);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_EQ(found[0].kind, RestOverlap::Kind::kOpen);
-    EXPECT_EQ(found[0].is_set_aside, kind == OverlapRule::Kind::kRest) << "nothing shows that they surely overlap";
+    EXPECT_EQ(found[0].kind, PairKind::kMayAtRest);
+    EXPECT_EQ(scene.pairs.empty(), kind == OverlapRule::Kind::kRest) << "nothing shows that they surely overlap";
   }
 }
 
@@ -355,7 +361,7 @@ TEST(OverlappingPairs, OfCapsules) {
     std::vector<std::string> warnings;
     const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
     Scene scene = buildScene(description, planScene(description), coarse());
-    const std::vector<RestOverlap> found = applyOverlapRule(robot, {}, scene);
+    const std::vector<PairDecision> found = applyOverlapRule(robot, {}, scene);
     return found.empty() ? -1.0 : found[0].depth;
   };
   EXPECT_EQ(verdict(0.5005), -1.0) << "its end is half a millimetre from the wall";

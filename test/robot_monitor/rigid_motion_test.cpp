@@ -120,10 +120,8 @@ TEST_F(RigidMotion, PosesThatContradictTheSceneAreNotChecked) {
 }
 
 TEST_F(RigidMotion, ThatKnowsOneOfTwoBodiesIsNotChecked) {
-  for (AllowedPair pair : {AllowedPair{"base", "hand", ""}, AllowedPair{"ball", "hand", ""}}) {
-    pair.reason = "so that nothing else needs the hand";
-    description_.allowed.push_back(pair);
-  }
+  for (const char* other : {"base", "ball"})
+    description_.allowed.push_back({other, "hand", "so that nothing else needs the hand"});
   const auto scene = this->scene();
   const auto verdict = [&](const std::string& carriage, const std::string& hand) {
     CycleMotion motion;

@@ -143,10 +143,10 @@ TEST(RobotScene, WorldObjectsInTheRootsFrameAreRigidlyJoinedToIt) {
     EXPECT_EQ(reasonFor(scene, "held", "arm"), "checked");
     EXPECT_EQ(reasonFor(scene, "tile", "base"), "checked") << "what a map shows comes and goes";
   }
-  for (const LeftOut& pair : planScene(scene).left_out) {
-    if (pair.name != "base - table") continue;
-    ASSERT_TRUE(pair.reason.rigid);
-    EXPECT_TRUE(pair.reason.rigid->X_AB.isApprox(Isometry3d(Eigen::Translation3d(3.0, 0.0, -1.0)), 1e-12));
+  for (const PairDecision& pair : planScene(scene).left_out) {
+    if (pair.body_a != "base" || pair.body_b != "table") continue;
+    ASSERT_TRUE(pair.rigid);
+    EXPECT_TRUE(pair.rigid->X_AB.isApprox(Isometry3d(Eigen::Translation3d(3.0, 0.0, -1.0)), 1e-12));
     return;
   }
   FAIL() << "base and table";

@@ -50,8 +50,8 @@ inline std::string chain() {
 
 /// Why the plan leaves the pair out; "checked" if it does not.
 inline std::string reasonFor(const SceneDescription& scene, const std::string& a, const std::string& b) {
-  for (const LeftOut& pair : planScene(scene).left_out)
-    if (pair.isPair() && (pair.name == pairName(a, b) || pair.name == pairName(b, a))) return pair.reason.text;
+  for (const PairDecision& pair : planScene(scene).left_out)
+    if (namePair(pair.body_a, pair.body_b) == namePair(a, b)) return pair.text;
   return "checked";
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/name_pair.h"
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "ros/tf_messages.h"
@@ -60,8 +61,8 @@ class ChangingSceneCase : public ::testing::Test {
   }
   /// The reason why the plan leaves the pair out; "checked" if it does not.
   std::string reason(const std::string& a, const std::string& b) const {
-    for (const LeftOut& pair : planScene(description()).left_out)
-      if (pair.isPair() && (pair.name == pairName(a, b) || pair.name == pairName(b, a))) return pair.reason.text;
+    for (const PairDecision& pair : planScene(description()).left_out)
+      if (namePair(pair.body_a, pair.body_b) == namePair(a, b)) return pair.text;
     return "checked";
   }
 

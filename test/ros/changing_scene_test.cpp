@@ -78,8 +78,9 @@ TEST_F(ChangingSceneTest, RulesOfLaterCallsWin) {
 
 TEST_F(ChangingSceneTest, AnObjectOfStartUpStaysJoinedToTheRootWhereItHasMoved) {
   const auto inBase = [&] {
-    for (const LeftOut& pair : planScene(description()).left_out)
-      if (pair.name == "base - table" && pair.reason.rigid) return Vector3d(pair.reason.rigid->X_AB.translation());
+    for (const PairDecision& pair : planScene(description()).left_out)
+      if (pair.body_a == "base" && pair.body_b == "table" && pair.rigid)
+        return Vector3d(pair.rigid->X_AB.translation());
     return Vector3d(Vector3d::Zero());
   };
   EXPECT_EQ(inBase(), Vector3d(50, 0, 0));

@@ -135,8 +135,8 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
 
 TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
   Scene joined = *handFootAndPlate();
-  joined.left_out.push_back({"pair", "hand - foot", {"rigidly joined"}, 0, 1});
-  joined.left_out.back().reason.rigid = std::make_shared<const RigidPose>(RigidPose{Isometry3d::Identity(), {}, {}});
+  const auto rigid = std::make_shared<const RigidPose>(RigidPose{Isometry3d::Identity(), {}, {}});
+  joined.left_out.push_back({"hand", "foot", "rigidly joined", PairKind::kRigid, 0.0, rigid, 0, 1});
   loop_ = std::make_unique<MonitorLoop>(std::make_shared<const Scene>(joined), describedWorld(), MonitorParameters());
   for (int i = 0; i < 3; ++i) {
     sendHand(10.0 + i * kPeriod, 0.0);

@@ -40,8 +40,9 @@ std::set<std::string> pairsOf(const MonitorParameters& parameters, std::vector<s
   for (const PlannedPair& pair : scene->pairs)
     pairs.insert(scene->bodies[pair.body_a].name + " " + scene->bodies[pair.body_b].name);
   if (left_out)
-    for (const LeftOut& entry : scene->left_out) left_out->push_back(entry.what() + ": " + entry.reason.text);
-  if (warnings) *warnings = scene->warnings;
+    for (const PairDecision& pair : scene->left_out)
+      left_out->push_back(pair.body_a + " - " + pair.body_b + ": " + pair.text);
+  if (warnings) *warnings = scene->overlap_notes;
   return pairs;
 }
 
@@ -112,11 +113,10 @@ using Pairs = std::set<std::string>;
 TEST(DescribeScene, LinksThatOverlapAtRestAreSetAsideByDefault) {
   std::vector<std::string> left_out;
   EXPECT_EQ(pairsOf(cart(), &left_out), (Pairs{"base table", "caster table", "wheel table"}));
-  EXPECT_EQ(std::count_if(left_out.begin(), left_out.end(),
-                          [](const std::string& pair) {
-                            return pair.rfind("pair base - wheel: overlap at rest, with ", 0) == 0;
-                          }),
-            1);
+  EXPECT_EQ(
+      std::count_if(left_out.begin(), left_out.end(),
+                    [](const std::string& pair) { return pair.rfind("base - wheel: overlap at rest, with ", 0) == 0; }),
+      1);
 }
 
 TEST(DescribeScene, TheyAreCheckedAndToldIfThatIsWanted) {
@@ -144,7 +144,7 @@ TEST(DescribeScene, RulesHoldForObjectsToo) {
   parameters.pairs.checked = {{"wheel", "table"}};
   std::vector<std::string> left_out;
   EXPECT_EQ(pairsOf(parameters, &left_out), (Pairs{"wheel table"}));
-  EXPECT_EQ(std::count(left_out.begin(), left_out.end(), "pair base - table: allowed_pairs: * - table"), 1);
+  EXPECT_EQ(std::count(left_out.begin(), left_out.end(), "base - table: allowed_pairs: * - table"), 1);
 }
 
 }  // namespace sdf_ccd::describe_scene_test

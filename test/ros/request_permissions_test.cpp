@@ -109,7 +109,7 @@ TEST_F(RequestPermissionsTest, ARuleDoesNotReachAProtectedBodyThatComesLater) {
   apply({box("box"), box("bax")});
   EXPECT_EQ(reason("box", "arm"), "checked");
   EXPECT_EQ(reason("bax", "arm"), "update_scene: b?x* - arm");
-  EXPECT_EQ(scene_->allowedByRequests(description()), 1u);
+  EXPECT_EQ(allowedByRequests(description()), 1u);
 }
 
 /// Else who may add an object, and allow it to touch, could take any part of a protected map from the checks.
@@ -175,7 +175,7 @@ TEST_F(RequestPermissionsTest, WhatRequestsTakeFromTheChecksIsTold) {
   EXPECT_EQ(scene_->weakened(description()), "");
   apply(attach("box", {"base"}));
   EXPECT_EQ(scene_->weakened(description()), "") << "a grasp";
-  EXPECT_EQ(scene_->allowedByRequests(description()), 1u);
+  EXPECT_EQ(allowedByRequests(description()), 1u);
   apply(attach("box", {"b*"}));
   EXPECT_NE(scene_->weakened(description()).find("requests allow 1 pair to touch"), std::string::npos);
   apply(change(SceneChange::REMOVE, "box"));

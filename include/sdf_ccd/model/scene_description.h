@@ -73,12 +73,36 @@ struct BodyDescription : BodyPlace {
   Isometry3d X_root_frame = Isometry3d::Identity();
 };
 
-/// A pair that is allowed to collide, so it is left out, by the bodies' names.
-struct AllowedPair {
-  std::string body_a;
-  std::string body_b;
-  std::string reason;  ///< "SRDF: Adjacent", "adjacent", …
-  double depth = 0.0;  ///< if they overlap at rest: of the deepest point found there [m]
+/// Why a pair is not checked. Of several reasons, the first of these counts.
+enum class PairKind {
+  kRequest,     ///< a rule of update_scene
+  kTouchLinks,  ///< attached, and allowed by its touch_links
+  kUser,        ///< the parameter allowed_pairs, or a caller of the library
+  kSrdf,
+  kRigid,     ///< rigidly joined, or in the same frame
+  kAdjacent,  ///< joined by one movable joint
+  kEmpty,     ///< one of them has no geometry
+  kNever,     ///< learned: they are apart in all states
+  kAlways,    ///< they overlap at rest, and overlap, or as neighbours touch, in all other states
+  kHeld,      ///< the same, but at rest they touch as neighbours
+  kAtRest,    ///< they overlap at rest
+  kMayAtRest  ///< they may overlap at rest
+};
+
+/// How two bodies are that do not move relative to each other.
+struct RigidPose {
+  Isometry3d X_AB;
+  BoundingBall ball_a, ball_b;  ///< contain their geometry, each in its body's frame; infinite for half-spaces
+};
+
+/// A decision about a pair: it is left out of a scene, and why.
+struct PairDecision {
+  std::string body_a, body_b;  ///< names
+  std::string text = {};       ///< for people: "SRDF: Adjacent", "adjacent", …
+  PairKind kind = PairKind::kUser;
+  double depth = 0.0;                           ///< if they overlap at rest: of the deepest point found there [m]
+  std::shared_ptr<const RigidPose> rigid = {};  ///< of kRigid
+  int a = -1, b = -1;                           ///< the bodies of a planned scene, by index
 };
 
 /// A pair that a scene leaves out although it needs a check.
@@ -90,7 +114,7 @@ struct UncheckedPair {
 /// Bodies, and the pairs of them that need no check.
 struct SceneDescription {
   std::vector<BodyDescription> bodies;  ///< names are unique
-  std::vector<AllowedPair> allowed;     ///< the allowed collision matrix: these pairs may collide and are not checked
+  std::vector<PairDecision> allowed;    ///< the allowed collision matrix: these pairs may collide and are not checked
   std::vector<std::string> visual_only = {};  ///< links without body: they have a visual, but no collision shape
   /// Tiles of a live map are part of the scene, or may be of one that follows. What links and attached objects fill of
   /// the map is known by their fields and surfaces, which are kept even if no pair needs them.

@@ -21,36 +21,19 @@ struct PlannedPair {
   bool b_shell_a_field;
 };
 
-/// How two bodies are that do not move relative to each other.
-struct RigidPose {
-  Isometry3d X_AB;
-  BoundingBall ball_a, ball_b;  ///< contain their geometry, each in its body's frame; infinite for half-spaces
-};
-
-/// Why something is left out.
-struct LeftOutReason {
-  std::string text;    ///< empty: it is not left out
-  double depth = 0.0;  ///< as AllowedPair::depth [m]
-  /// Of a pair that is rigidly joined or in the same frame, for body_a and body_b of LeftOut. Null for all others.
-  std::shared_ptr<const RigidPose> rigid = {};
-};
-
-/// A pair, field or shell that a plan leaves out.
-struct LeftOut {
-  std::string kind;  ///< "pair", "field", "shell"
-  std::string name;  ///< "a - b", or that of a body
-  LeftOutReason reason;
-  int body_a = -1, body_b = -1;  ///< of a pair
-
-  bool isPair() const { return body_a >= 0; }                                   ///< else it is a body's
-  std::string what() const { return kind + (isPair() ? " " : " of ") + name; }  ///< "pair a - b", "shell of map"
+/// A field or shell that a plan leaves out.
+struct LeftOutPart {
+  std::string kind;  ///< "field", "shell"
+  std::string body;  ///< its name
+  std::string reason;
 };
 
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
   std::vector<BodyNeeds> needs;  ///< per body; without surfaces, which depend on the fields once these are built
-  std::vector<LeftOut> left_out;
+  std::vector<PairDecision> left_out;
+  std::vector<LeftOutPart> parts_left_out;
 };
 
 /// What a plan depends on besides the scene.
@@ -83,12 +66,14 @@ class RestingAnswers;
 struct Scene {
   BodyList bodies;
   std::vector<PlannedPair> pairs;
-  std::vector<LeftOut> left_out;
+  std::vector<PairDecision> left_out;
+  std::vector<LeftOutPart> parts_left_out;
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
-  std::vector<std::string> warnings;  ///< about its pairs, and those that several bodies share
-  ErrorBound bound;                   ///< of verdicts, largest over all pairs; chord: as the options allow
-  ErrorBound contact_bound;           ///< the same for times and depths of contacts, which come from fields and shells
+  std::vector<std::string> warnings;       ///< about its pairs, and those that several bodies share
+  std::vector<std::string> overlap_notes;  ///< about pairs of links that overlap at rest
+  ErrorBound bound;                        ///< of verdicts, largest over all pairs; chord: as the options allow
+  ErrorBound contact_bound;  ///< the same for times and depths of contacts, which come from fields and shells
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]
   std::optional<double> max_error;                 ///< as requested [m]
   double build_seconds = 0.0;
@@ -114,8 +99,8 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
                  const std::function<void(const std::string&, double)>& progress = {});
 
 /// Removes pairs from a scene that is built; bodies stay unchanged.
-/// @param reasons  per pair: why it is removed; empty if it stays.
-void leaveOut(const std::vector<LeftOutReason>& reasons, Scene& scene);
+/// @param pairs  of the scene, by index.
+void leaveOut(const std::vector<PairDecision>& pairs, Scene& scene);
 
 /// A scene of bodies that are already prepared, with all of their pairs except those of two world bodies. A pair of two
 /// bodies with half-spaces cannot be tested: it is NOT_CHECKED, and Scene::warnings name it.

@@ -39,7 +39,7 @@ Resource loadLocalResource(const std::string& uri, const PackageFinder& packages
 /// The parts of an SRDF file that are used. Names are not compared with any robot here.
 struct Srdf {
   std::string robot;                                         ///< the robot's name in the file; may be empty
-  std::vector<AllowedPair> disabled;                         ///< reason: "SRDF: " and the file's
+  std::vector<PairDecision> disabled;                        ///< text: "SRDF: " and the file's reason
   std::vector<std::string> disabled_by_default;              ///< links that are only checked against those of `enabled`
   std::map<std::string, std::string> virtual_joints;         ///< child link by name; parent frame and type are not used
   std::vector<std::pair<std::string, std::string>> enabled;  ///< overrides disabled_by_default, and adjacency

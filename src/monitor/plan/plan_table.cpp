@@ -4,6 +4,7 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "model/name_pair.h"
 #include "monitor/no_pairs.h"
 #include "scene_totals.h"
 #include "sdf_ccd/monitor/scene.h"
@@ -41,17 +42,18 @@ std::string aligned(const std::vector<Row>& rows, std::size_t left) {
 
 /// One line per kind and reason, with a few examples: "212 pairs, SRDF: Never: a - b, c - d, ...". ASCII, for logs
 /// in any locale.
-std::string leftOutLines(const std::vector<LeftOut>& left_out) {
+std::string leftOutLines(const Scene& scene) {
   struct Group {
     std::vector<std::string> names;
     std::size_t most = kNamedPairs;
   };
   std::map<std::pair<std::string, std::string>, Group> groups;
-  for (const LeftOut& item : left_out) {
-    Group& group = groups[{item.kind, item.reason.text}];
-    group.names.push_back(item.name);
-    if (!(item.reason.depth > 0.0)) continue;
-    group.names.back() += " (" + lengthText(item.reason.depth) + ")";
+  for (const LeftOutPart& part : scene.parts_left_out) groups[{part.kind, part.reason}].names.push_back(part.body);
+  for (const PairDecision& pair : scene.left_out) {
+    Group& group = groups[{"pair", pair.text}];
+    group.names.push_back(pairName(pair.body_a, pair.body_b));
+    if (!(pair.depth > 0.0)) continue;
+    group.names.back() += " (" + lengthText(pair.depth) + ")";
     group.most = kNamedDepths;
   }
   std::string text;
@@ -120,11 +122,13 @@ std::string planTable(const Scene& scene) {
     for (const std::string& link : scene.visual_only) text += " " + link;
     text += "\n";
   }
-  for (const std::string& warning : scene.warnings) warnings += "  " + warning + "\n";
+  for (const auto* some : {&scene.warnings, &scene.overlap_notes})
+    for (const std::string& warning : *some) warnings += "  " + warning + "\n";
   if (const std::string none = whyNoPairs(scene); !none.empty()) warnings += "  " + none + "\n";
   if (!warnings.empty()) text += "notes:\n" + warnings;
   const std::size_t of_objects = pairsOfObjects(scene.bodies);
-  if (!scene.left_out.empty() || of_objects > 0) text += "left out:\n" + leftOutLines(scene.left_out);
+  const std::string left_out = leftOutLines(scene);
+  if (!left_out.empty() || of_objects > 0) text += "left out:\n" + left_out;
   if (of_objects > 0) text += "  " + counted(of_objects, "pair") + " of two objects of the world\n";
   return text;
 }

@@ -4,8 +4,11 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "body/body_builder.h"
 #include "model/name_pair.h"
@@ -46,18 +49,19 @@ bool isLarge(const BodyDescription& body, const PlanOptions& options) {
   return surfaceArea(*primitive) / (options.shell_spacing * options.shell_spacing) > options.large_shell_points;
 }
 
-/// The allowed pairs by their names, the first one of each.
-std::map<NamePair, const AllowedPair*> allowedPairs(const SceneDescription& description) {
+/// The decisions about pairs by their names, the first kind of each.
+std::map<NamePair, const PairDecision*> decisionsOf(const SceneDescription& description) {
   std::set<std::string> names;
   for (const BodyDescription& body : description.bodies) {
     if (!names.insert(body.name).second)
       throw std::invalid_argument("scene: two bodies are named \"" + body.name + "\"");
   }
-  std::map<NamePair, const AllowedPair*> pairs;
-  for (const AllowedPair& pair : description.allowed) {
+  std::map<NamePair, const PairDecision*> pairs;
+  for (const PairDecision& pair : description.allowed) {
     if (pair.body_a == pair.body_b)
       throw std::invalid_argument("scene: an allowed pair names \"" + pair.body_a + "\" twice");
-    pairs.emplace(namePair(pair.body_a, pair.body_b), &pair);
+    const PairDecision*& first = pairs.emplace(namePair(pair.body_a, pair.body_b), &pair).first->second;
+    if (pair.kind < first->kind) first = &pair;
   }
   return pairs;
 }
@@ -74,24 +78,27 @@ struct Planned {
   Extent extent;
 };
 
-/// Why the pair is not tested; empty if it is.
-LeftOutReason whyLeftOut(const Planned& of_a, const Planned& of_b,
-                         const std::map<NamePair, const AllowedPair*>& allowed) {
+/// Why the pair is not tested, without its names and indices; none if it is.
+std::optional<PairDecision> whyLeftOut(const Planned& of_a, const Planned& of_b,
+                                       const std::map<NamePair, const PairDecision*>& allowed) {
   const BodyDescription &a = *of_a.body, &b = *of_b.body;
-  const auto found = allowed.find(namePair(a.name, b.name));
-  if (found != allowed.end()) return {found->second->reason, found->second->depth};
+  const auto known = allowed.find(namePair(a.name, b.name));
+  const PairDecision* const given = known == allowed.end() ? nullptr : known->second;
+  if (given && given->kind < PairKind::kRigid) return *given;
   const bool has_tile = !a.map.empty() || !b.map.empty();  // what a map shows comes and goes, wherever its frame is
   const auto rigid = [&](const char* text, const Isometry3d& X_AB) {
-    return LeftOutReason{text, 0.0,
-                         std::make_shared<const RigidPose>(RigidPose{X_AB, of_a.extent.ball, of_b.extent.ball})};
+    auto pose = std::make_shared<const RigidPose>(RigidPose{X_AB, of_a.extent.ball, of_b.extent.ball});
+    return PairDecision{"", "", text, PairKind::kRigid, 0.0, std::move(pose)};
   };
   const bool is_with_world = (a.is_attached && b.is_world) || (a.is_world && b.is_attached);
   if (!has_tile && !is_with_world && !a.rigid_root.empty() && a.rigid_root == b.rigid_root)
     return rigid("rigidly joined", (a.X_root_frame * a.X_frame_B).inverse() * b.X_root_frame * b.X_frame_B);
   if (!has_tile && a.frame == b.frame) return rigid("in the same frame", a.X_frame_B.inverse() * b.X_frame_B);
-  if (!isPlanned(a) || !isPlanned(b)) return {};
-  if (a.geometry.empty() || b.geometry.empty()) return {"without collision geometry"};
-  return {};
+  if (given) return *given;
+  if (!isPlanned(a) || !isPlanned(b)) return std::nullopt;
+  if (a.geometry.empty() || b.geometry.empty())
+    return PairDecision{"", "", "without collision geometry", PairKind::kEmpty};
+  return std::nullopt;
 }
 
 /// Without a shell of the large body, its contacts with a small one are found in its field alone: it must be too long
@@ -121,7 +128,7 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
 }
 
 void listLeftOut(const BodyDescription& body, const Planned& planned, const BodyNeeds& needs,
-                 std::vector<LeftOut>& left_out) {
+                 std::vector<LeftOutPart>& left_out) {
   if (!body.failure.empty() || body.geometry.empty()) return;
   std::string no_shell = whyNoShell(body);
   if (no_shell.empty() && planned.is_large && planned.has_pair)
@@ -130,14 +137,14 @@ void listLeftOut(const BodyDescription& body, const Planned& planned, const Body
                            : body.forces != Forces::kKnown ? whyNoForces(body.forces)
                            : needs.triangles               ? "none of its pairs has forces"
                                                            : "its pairs cannot be checked";
-  if (!needs.field) left_out.push_back({"field", body.name, {needs.shell ? "used only as a shell" : idle}});
-  if (!needs.shell) left_out.push_back({"shell", body.name, {no_shell.empty() ? idle : no_shell}});
+  if (!needs.field) left_out.push_back({"field", body.name, needs.shell ? "used only as a shell" : idle});
+  if (!needs.shell) left_out.push_back({"shell", body.name, no_shell.empty() ? idle : no_shell});
 }
 
 }  // namespace
 
 ScenePlan planScene(const SceneDescription& description, const PlanOptions& options) {
-  const std::map<NamePair, const AllowedPair*> allowed = allowedPairs(description);
+  const std::map<NamePair, const PairDecision*> allowed = decisionsOf(description);
   const int count = static_cast<int>(description.bodies.size());
   ScenePlan plan;
   plan.needs.assign(count, {false, false});
@@ -156,16 +163,16 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
     for (int k = i + 1; k < count; ++k) {
       const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
       if (a.is_world && b.is_world) continue;
-      const LeftOutReason reason = whyLeftOut(planned[i], planned[k], allowed);
-      if (reason.text.empty()) {
-        plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
+      if (std::optional<PairDecision> decision = whyLeftOut(planned[i], planned[k], allowed)) {
+        std::tie(decision->body_a, decision->body_b, decision->a, decision->b) = std::tie(a.name, b.name, i, k);
+        plan.left_out.push_back(std::move(*decision));
       } else {
-        plan.left_out.push_back({"pair", pairName(a.name, b.name), reason, i, k});
+        plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
       }
     }
   }
   for (int i = 0; i < count; ++i) {
-    listLeftOut(description.bodies[i], planned[i], plan.needs[i], plan.left_out);
+    listLeftOut(description.bodies[i], planned[i], plan.needs[i], plan.parts_left_out);
   }
   return plan;
 }

@@ -19,6 +19,7 @@ Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, c
   Scene scene;
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
+  scene.parts_left_out = plan.parts_left_out;
   scene.visual_only = description.visual_only;
   scene.max_error = options.max_error;
   scene.motion_margin = options.motion_margin;

@@ -53,11 +53,7 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
   }
   for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) warn(report.name + ": " + warning);
-  for (const std::string& warning : scene.warnings) {
-    const bool is_standing =
-        warning == setAsideText(described.overlaps) || warning == checkedOverlapsText(described.overlaps);
-    if (!is_standing) warn(warning);  // else watchStanding() tells
-  }
+  for (const std::string& warning : scene.warnings) warn(warning);  // watchStanding() tells the overlap_notes
   if (const std::string none = whyNoPairs(scene); !none.empty()) ROS_WARN("%s", none.c_str());  // may change
   const std::string over = overBudget(scene);
   if (!over.empty()) warn(over);
@@ -69,8 +65,7 @@ void HealthWatch::recordScene(const Scene& scene, const DescribedScene& describe
 
 void HealthWatch::countPairs(const Scene& scene) {
   health_.pairs = static_cast<int>(scene.pairs.size());
-  health_.pairs_left_out = static_cast<int>(std::count_if(scene.left_out.begin(), scene.left_out.end(),
-                                                          [](const LeftOut& left_out) { return left_out.isPair(); }));
+  health_.pairs_left_out = static_cast<int>(scene.left_out.size());
 }
 
 void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state, const CycleSafety& safety,

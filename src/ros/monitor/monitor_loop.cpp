@@ -81,7 +81,7 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
           parameters.proximity.pairs),
       traits_(traits_finder_.of(world_->scene(), world_->description())),
       unbuilt_(unbuiltBodies(monitor_.scene())) {
-  OverlapTexts overlaps = overlapTexts(world_->scene());
+  OverlapNotes overlaps = overlapNotes(described_.overlaps, described_.overlap_rule, world_->scene());
   setOverlaps(overlaps);
 }
 
@@ -109,7 +109,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
       findPairs(trackedNames(scene, *change->rigid_guard), trackedNames(world_->scene(), *rigid_guard_));
   change->contacts = contacts_.prepare(scene);
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
-  change->overlaps = overlapTexts(scene);
+  change->overlaps = overlapNotes(described_.overlaps, described_.overlap_rule, scene);
   change->traits = traits_finder_.of(scene, next->description());
   change->unbuilt = unbuiltBodies(scene);
   constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
@@ -188,16 +188,10 @@ void MonitorLoop::trackContacts(const CycleRequest& request) {
   contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
 }
 
-OverlapTexts MonitorLoop::overlapTexts(const Scene& scene) const {
-  if (described_.overlaps.empty()) return {};
-  const std::vector<RestOverlap> overlaps = overlapsIn(scene, described_.overlaps);
-  return {setAsideText(overlaps), checkedOverlapsText(overlaps)};
-}
-
-void MonitorLoop::setOverlaps(OverlapTexts& texts) {
-  if (texts.set_aside != overlaps_.set_aside) warnings_.set("overlaps_set_aside", texts.set_aside);
-  if (texts.checked != overlaps_.checked) warnings_.set("overlaps_checked", texts.checked);
-  std::swap(overlaps_, texts);
+void MonitorLoop::setOverlaps(OverlapNotes& notes) {
+  if (notes.set_aside != overlaps_.set_aside) warnings_.set("overlaps_set_aside", notes.set_aside);
+  if (notes.checked != overlaps_.checked) warnings_.set("overlaps_checked", notes.checked);
+  std::swap(overlaps_, notes);
 }
 
 void MonitorLoop::watchFixedFrame() {

@@ -14,12 +14,6 @@
 
 namespace sdf_ccd {
 
-/// What the user must know of the pairs that overlap at rest: of those that are set aside, and of those that are
-/// checked.
-struct OverlapTexts {
-  std::string set_aside, checked;
-};
-
 /// The bodies of a scene that could not be built, with the number of their pairs, none of which is ever checked.
 struct UnbuiltBodies {
   std::vector<UncheckedBody> bodies;  ///< without the time
@@ -40,7 +34,7 @@ struct LoopChange {
   std::vector<PairTraits> traits;  ///< per pair
   UnbuiltBodies unbuilt;
   TrackedCycle cycle;
-  OverlapTexts overlaps;
+  OverlapNotes overlaps;
 };
 
 /// Runs the cycles of the monitor, from transforms to results, whatever the source of the transforms and the clock.
@@ -121,8 +115,7 @@ class MonitorLoop {
   void run(const CycleRequest& request);
   void guardRigid();
   void trackContacts(const CycleRequest& request);
-  OverlapTexts overlapTexts(const Scene& scene) const;
-  void setOverlaps(OverlapTexts& texts);
+  void setOverlaps(OverlapNotes& notes);
   std::string movingFixedFrame() const;
 
   std::shared_ptr<const CheckedWorld> world_;
@@ -142,7 +135,7 @@ class MonitorLoop {
   std::vector<PairTraits> traits_;
   UnbuiltBodies unbuilt_;
   StandingWarnings warnings_;
-  OverlapTexts overlaps_;
+  OverlapNotes overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested
 };
 

@@ -33,25 +33,24 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   }
   constexpr std::size_t kMaxReasons = 65535;
   std::map<std::string, std::uint16_t> reasons;
-  for (const LeftOut& left_out : scene.left_out) {
-    const std::string& text = left_out.reason.text;
-    if (!left_out.isPair()) {
-      plan.parts_left_out.push_back(left_out.what());
-      plan.part_reasons.push_back(text);
-      continue;
-    }
+  for (const PairDecision& pair : scene.left_out) {
     const bool is_full = plan.reasons.size() >= kMaxReasons;
     const auto [known, is_new] =
-        reasons.emplace(is_full ? plan.reasons.back() : text, static_cast<std::uint16_t>(plan.reasons.size()));
+        reasons.emplace(is_full ? plan.reasons.back() : pair.text, static_cast<std::uint16_t>(plan.reasons.size()));
     if (is_new) plan.reasons.push_back(known->first);
-    plan.left_out_a.push_back(static_cast<std::uint32_t>(left_out.body_a));
-    plan.left_out_b.push_back(static_cast<std::uint32_t>(left_out.body_b));
+    plan.left_out_a.push_back(static_cast<std::uint32_t>(pair.a));
+    plan.left_out_b.push_back(static_cast<std::uint32_t>(pair.b));
     plan.left_out_reason.push_back(known->second);
-    plan.left_out_depth.push_back(left_out.reason.depth);
+    plan.left_out_depth.push_back(pair.depth);
+  }
+  for (const LeftOutPart& part : scene.parts_left_out) {
+    plan.parts_left_out.push_back(part.kind + " of " + part.body);
+    plan.part_reasons.push_back(part.reason);
   }
   plan.pairs_of_objects = pairsOfObjects(scene.bodies);
   plan.visual_only = scene.visual_only;
-  plan.warnings.insert(plan.warnings.end(), scene.warnings.begin(), scene.warnings.end());
+  for (const auto* some : {&scene.warnings, &scene.overlap_notes})
+    plan.warnings.insert(plan.warnings.end(), some->begin(), some->end());
   plan.error_bound = scene.bound.total();
   plan.max_error = scene.max_error.value_or(0.0);
   plan.seconds = world.snapshot->seconds > 0.0 ? world.snapshot->seconds : scene.build_seconds;

@@ -130,7 +130,6 @@ bool SceneEditor::makeNext(Draft& draft) {
     if (!snapshot) return;
     const auto world = std::make_shared<CheckedWorld>(snapshot, draft.scene.attachedSince(), draft.scene.declared());
     world->map_age = draft.scene.mapAge();
-    world->allowed_by_requests = draft.scene.allowedByRequests(*snapshot->description);
     draft.world = world;
   });
   if (!draft.world) return false;

@@ -5,47 +5,32 @@
 #include <stdexcept>
 
 #include "common/counted.h"
+#include "model/name_pair.h"
 #include "robot/joint_chain.h"
 #include "ros/world/changing_scene_start_up.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {
-namespace {
-
-const std::string kTouchLinks = "attached, and allowed by touch_links";
-
-std::string textOf(const RequestRule& rule) {
-  return "update_scene: " + pairName(rule.pair.a, rule.pair.b);
-}
-
-}  // namespace
 
 RuleIndex ChangingScene::ruleIndex() const {
   return {rules_, start_up_->permissions, settled_ ? settled_->matches : nullptr};
 }
 
-/// Why an object that has changed since start-up and another body, not both of the world, may touch; empty if they may
-/// not.
-std::string ChangingScene::whyMayTouch(const Object& object, const BodyDescription& other) const {
+/// Whether touch_links allow an object that has changed since start-up and another body to touch.
+bool ChangingScene::mayTouch(const Object& object, const BodyDescription& other) const {
   const std::string& name = object.body.name;
   const auto known = objects_.find(other.name);
   const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
   const auto isLink = [&](const std::string& link) { return start_up_->robot->find(link) >= 0; };
-  const bool are_of_robot = isLink(object.link) && isLink(other_link);
-  const auto mayTouch = [](const std::vector<std::string>& patterns, const std::string& touched) {
+  if (!isLink(object.link) || !isLink(other_link)) return false;
+  const auto isNamed = [](const std::vector<std::string>& patterns, const std::string& touched) {
     return std::any_of(patterns.begin(), patterns.end(),
                        [&](const auto& pattern) { return matches(pattern, touched); });
   };
-  const auto is_protected = [&] {
-    return start_up_->permissions.isProtected(name) || start_up_->permissions.isProtected(other.name);
-  };
-  const auto may_touch = [&] {
-    checkCancelled();
-    return mayTouch(object.touch_links, other.name) ||
-           (known != objects_.end() && mayTouch(known->second.touch_links, name));
-  };
-  if (are_of_robot && may_touch() && !is_protected()) return kTouchLinks;
-  return whyAllowed(start_up_->rules, name, other.name);
+  checkCancelled();
+  return (isNamed(object.touch_links, other.name) ||
+          (known != objects_.end() && isNamed(known->second.touch_links, name))) &&
+         !start_up_->permissions.isProtected(name) && !start_up_->permissions.isProtected(other.name);
 }
 
 /// Whether a body is neither a link nor an object that is as it was at start-up.
@@ -68,7 +53,7 @@ bool ChangingScene::isJudgedAsObject(const BodyDescription& tile) const {
 
 /// Whether no grasp has the bodies touch, though touch_links allow it: more than two joints move between their links,
 /// and neither is a part of the hand that holds the other.
-bool ChangingScene::isNoGrasp(const AllowedPair& pair) const {
+bool ChangingScene::isNoGrasp(const PairDecision& pair) const {
   constexpr std::size_t kNearJoints = 2;
   const RobotModel& robot = *start_up_->robot;
   const auto linkOf = [&](const std::string& body) {
@@ -86,34 +71,32 @@ bool ChangingScene::isNoGrasp(const AllowedPair& pair) const {
 
 /// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
 /// checked.
-/// @return their names, if there are rules.
-std::set<NamePair> ChangingScene::keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const {
-  std::set<NamePair> kept;
-  for (const AllowedPair& pair : start_up_->allowed) {
+void ChangingScene::keepAllowed(RuleIndex& rules, std::vector<PairDecision>& allowed) const {
+  for (const PairDecision& pair : start_up_->allowed) {
     if (hasChanged(pair.body_a) || hasChanged(pair.body_b)) continue;
     const RequestRule* rule = rules.last(pair.body_a, pair.body_b);
-    if (rule && !rule->is_allowed) continue;
-    allowed.push_back(pair);
-    if (!rules_.empty()) kept.insert(namePair(pair.body_a, pair.body_b));
+    if (!rule || rule->is_allowed) allowed.push_back(pair);
   }
-  return kept;
 }
 
-/// Adds a pair to the allowed ones, if there is a reason. @param a, b  null if the body is no object.
+/// Adds a pair to the allowed ones, if a rule says so: the last one of requests, touch_links, or those of the
+/// parameters. @param a, b  null if the body is no object.
 void ChangingScene::leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b,
-                             const Object* b, RuleIndex& rules, const std::set<NamePair>& left_out,
-                             std::vector<AllowedPair>& allowed) const {
+                             const Object* b, RuleIndex& rules, std::vector<PairDecision>& allowed) const {
   if (body_a.is_world && body_b.is_world) return;
   const bool is_tile = !body_b.map.empty();
   const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
   if (!is_new && rules_.empty() && (!is_tile || start_up_->rules.allowed.empty())) return;
-  const RequestRule* rule = rules.last(body_a.name, body_b.name);
-  std::string reason;
-  if (is_new) reason = b && !b->is_unchanged ? whyMayTouch(*b, body_a) : whyMayTouch(*a, body_b);
-  if (reason.empty() && is_tile) reason = whyAllowed(start_up_->rules, body_b.name, body_a.name);
-  if (rule) reason = rule->is_allowed ? textOf(*rule) : "";
-  if (reason.empty() || left_out.count(namePair(body_a.name, body_b.name)) > 0) return;
-  allowed.push_back({body_a.name, body_b.name, reason});
+  const auto add = [&](const std::string& text, PairKind kind) {
+    if (!text.empty()) allowed.push_back({body_a.name, body_b.name, text, kind});
+  };
+  if (const RequestRule* rule = rules.last(body_a.name, body_b.name)) {
+    if (rule->is_allowed) add("update_scene: " + pairName(rule->pair.a, rule->pair.b), PairKind::kRequest);
+  } else if (is_new && (b && !b->is_unchanged ? mayTouch(*b, body_a) : mayTouch(*a, body_b))) {
+    add("attached, and allowed by touch_links", PairKind::kTouchLinks);
+  } else if (is_new || is_tile) {
+    add(whyAllowed(start_up_->rules, body_a.name, body_b.name), PairKind::kUser);
+  }
 }
 
 /// @param bodies   without tiles.
@@ -122,11 +105,11 @@ std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(const std::v
                                                                     const std::vector<const Object*>& objects) const {
   auto settled = std::make_shared<Settled>();
   RuleIndex rules = ruleIndex();
-  settled->left_out = keepAllowed(rules, settled->allowed);
+  keepAllowed(rules, settled->allowed);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     checkCancelled();
     for (std::size_t k = i + 1; k < bodies.size(); ++k)
-      leaveOut(bodies[i], objects[i], bodies[k], objects[k], rules, settled->left_out, settled->allowed);
+      leaveOut(bodies[i], objects[i], bodies[k], objects[k], rules, settled->allowed);
   }
   settled->matches = std::make_shared<const RuleIndex::Known>(std::move(rules).found());
   return settled;
@@ -166,21 +149,13 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   for (std::size_t k = objects.size(); k < scene.bodies.size(); ++k) {
     checkCancelled();
     for (std::size_t i = 0; i < objects.size(); ++i)
-      leaveOut(scene.bodies[i], objects[i], scene.bodies[k], nullptr, rules, settled_->left_out, scene.allowed);
+      leaveOut(scene.bodies[i], objects[i], scene.bodies[k], nullptr, rules, scene.allowed);
   }
   setRigidRoots(*start_up_->robot, scene, start_up_->tf_prefix);
   return scene;
 }
 
-std::size_t ChangingScene::allowedByRequests(const SceneDescription& description) const {
-  RuleIndex rules = ruleIndex();
-  return static_cast<std::size_t>(std::count_if(
-      description.allowed.begin(), description.allowed.end(),
-      [&](const AllowedPair& pair) { return pair.reason == kTouchLinks || rules.allowing(pair.body_a, pair.body_b); }));
-}
-
 std::string ChangingScene::weakened(const SceneDescription& description) const {
-  RuleIndex rules = ruleIndex();
   std::size_t pairs = 0;
   std::string first;
   const auto uses_patterns = [&](const std::string& body) {
@@ -188,10 +163,10 @@ std::string ChangingScene::weakened(const SceneDescription& description) const {
     return object != objects_.end() &&
            std::any_of(object->second.touch_links.begin(), object->second.touch_links.end(), isPattern);
   };
-  for (const AllowedPair& pair : description.allowed) {
-    const bool by_touch_links =
-        pair.reason == kTouchLinks && (uses_patterns(pair.body_a) || uses_patterns(pair.body_b) || isNoGrasp(pair));
-    if (!by_touch_links && !rules.allowing(pair.body_a, pair.body_b)) continue;
+  for (const PairDecision& pair : description.allowed) {
+    const bool by_touch_links = pair.kind == PairKind::kTouchLinks &&
+                                (uses_patterns(pair.body_a) || uses_patterns(pair.body_b) || isNoGrasp(pair));
+    if (!by_touch_links && pair.kind != PairKind::kRequest) continue;
     if (pairs++ == 0) first = pairName(pair.body_a, pair.body_b);
   }
   std::string text;

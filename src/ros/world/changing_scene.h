@@ -2,11 +2,9 @@
 
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "model/name_pair.h"
 #include "monitor/map/voxel_objects.h"
 #include "ros/tf/tf_history.h"
 #include "ros/world/describe_scene.h"
@@ -71,9 +69,6 @@ class ChangingScene {
 
   std::vector<std::string> objects() const;
 
-  /// Number of the description's pairs that requests allow to touch, by rules or by touch_links.
-  std::size_t allowedByRequests(const SceneDescription& description) const;
-
   /// What requests have taken from the checks, as a warning; empty if nothing. Touch_links that name links near the
   /// object's are not in it: every grasp has some.
   std::string weakened(const SceneDescription& description) const;
@@ -102,8 +97,7 @@ class ChangingScene {
   };
   struct StartUp;   // data that does not change: the links, and the pairs that were left out at start-up
   struct Settled {  // what the rules say of links and objects: no map has to wait until that is found out again
-    std::vector<AllowedPair> allowed;
-    std::set<NamePair> left_out;  // at start-up; empty if there are no rules
+    std::vector<PairDecision> allowed;
     std::shared_ptr<const RuleIndex::Known> matches;
   };
 
@@ -128,12 +122,12 @@ class ChangingScene {
   std::shared_ptr<const Settled> settle(const std::vector<BodyDescription>& bodies,
                                         const std::vector<const Object*>& objects) const;
   void leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b, const Object* b,
-                RuleIndex& rules, const std::set<NamePair>& left_out, std::vector<AllowedPair>& allowed) const;
-  std::string whyMayTouch(const Object& object, const BodyDescription& other) const;
+                RuleIndex& rules, std::vector<PairDecision>& allowed) const;
+  bool mayTouch(const Object& object, const BodyDescription& other) const;
   bool hasChanged(const std::string& body) const;
   bool isJudgedAsObject(const BodyDescription& tile) const;
-  bool isNoGrasp(const AllowedPair& pair) const;
-  std::set<NamePair> keepAllowed(RuleIndex& rules, std::vector<AllowedPair>& allowed) const;
+  bool isNoGrasp(const PairDecision& pair) const;
+  void keepAllowed(RuleIndex& rules, std::vector<PairDecision>& allowed) const;
 
   std::shared_ptr<const StartUp> start_up_;
   std::map<std::string, Object> objects_;

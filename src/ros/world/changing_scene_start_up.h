@@ -1,5 +1,7 @@
 #pragma once
 
+#include <set>
+
 #include "ros/world/changing_scene.h"
 
 namespace sdf_ccd {
@@ -13,7 +15,7 @@ struct ChangingScene::StartUp {
   std::vector<std::string> objects;  // names
   std::vector<BodyDescription> links;
   std::vector<std::string> visual_only;
-  std::vector<AllowedPair> allowed;
+  std::vector<PairDecision> allowed;
 };
 
 }  // namespace sdf_ccd

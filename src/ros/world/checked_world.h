@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,15 +14,22 @@
 
 namespace sdf_ccd {
 
+/// Number of pairs that requests allow to touch, by rules or by touch_links.
+inline std::size_t allowedByRequests(const SceneDescription& description) {
+  return static_cast<std::size_t>(std::count_if(
+      description.allowed.begin(), description.allowed.end(),
+      [](const PairDecision& pair) { return pair.kind == PairKind::kRequest || pair.kind == PairKind::kTouchLinks; }));
+}
+
 /// A version of the world and the data about it that the core does not hold; immutable, shared by cycles and queries.
 struct CheckedWorld {
   std::shared_ptr<const WorldSnapshot> snapshot;
   std::map<std::string, ros::Time> attached_since;  ///< per object that was attached to a link: where it is since then
   std::map<std::string, std::uint64_t> declared;    ///< ObjectMask::declared per object; 0 if it is not listed
   std::vector<TrackedBody> bodies;
-  double mask_error;                    ///< maskError()
-  std::size_t allowed_by_requests = 0;  ///< pairs that requests allow to touch
-  std::shared_ptr<MapAge> map_age;      ///< of its live map; null if it has none, or one that never gets too old
+  double mask_error;                ///< maskError()
+  std::size_t allowed_by_requests;  ///< allowedByRequests()
+  std::shared_ptr<MapAge> map_age;  ///< of its live map; null if it has none, or one that never gets too old
 
   explicit CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot,
                         std::map<std::string, ros::Time> of_attached = {},
@@ -30,7 +38,8 @@ struct CheckedWorld {
         attached_since(std::move(of_attached)),
         declared(std::move(of_declared)),
         bodies(trackedBodies(*snapshot->scene)),
-        mask_error(maskError(*snapshot->scene)) {}
+        mask_error(maskError(*snapshot->scene)),
+        allowed_by_requests(allowedByRequests(*snapshot->description)) {}
 
   std::uint64_t version() const { return snapshot->version; }
   const Scene& scene() const { return *snapshot->scene; }

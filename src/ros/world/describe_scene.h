@@ -15,13 +15,13 @@ namespace sdf_ccd {
 struct DescribedScene {
   std::shared_ptr<const RobotModel> robot;
   SceneDescription scene;
-  std::string root_frame;             ///< tf frame of the robot's root link
-  std::string tf_prefix;              ///< of all links' frames: empty, or ends in a slash
-  std::string base_joint;             ///< the SRDF's virtual joint of the root link; empty if there is none
-  std::string fixed_frame;            ///< without leading slash
-  std::string tiles_begin;            ///< prefix of the names of a live map's tiles; empty: there is no live map
-  OverlapRule overlap_rule;           ///< for pairs of links
-  std::vector<RestOverlap> overlaps;  ///< found by buildDescribed()
+  std::string root_frame;              ///< tf frame of the robot's root link
+  std::string tf_prefix;               ///< of all links' frames: empty, or ends in a slash
+  std::string base_joint;              ///< the SRDF's virtual joint of the root link; empty if there is none
+  std::string fixed_frame;             ///< without leading slash
+  std::string tiles_begin;             ///< prefix of the names of a live map's tiles; empty: there is no live map
+  OverlapRule overlap_rule;            ///< for pairs of links
+  std::vector<PairDecision> overlaps;  ///< found by buildDescribed()
   std::vector<std::string> warnings;
 
   RobotFrames frames() const { return {*robot, tf_prefix}; }

@@ -43,9 +43,4 @@ const RequestRule* RuleIndex::last(const std::string& body_a, const std::string&
   return nullptr;
 }
 
-const RequestRule* RuleIndex::allowing(const std::string& body_a, const std::string& body_b) {
-  const RequestRule* const rule = last(body_a, body_b);
-  return rule && rule->is_allowed ? rule : nullptr;
-}
-
 }  // namespace sdf_ccd

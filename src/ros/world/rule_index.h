@@ -36,9 +36,6 @@ class RuleIndex {
   /// Null if there is none.
   const RequestRule* last(const std::string& body_a, const std::string& body_b);
 
-  /// The last rule, if it allows the pair to touch; else null.
-  const RequestRule* allowing(const std::string& body_a, const std::string& body_b);
-
   /// What it has found besides what it was given.
   Known found() && { return std::move(found_); }
 

@@ -222,7 +222,7 @@ void run(const CheckBagArguments& arguments) {
   for (const std::string& warning : standing) {
     lasting += warning + "\n";
     const bool is_of_scene =
-        std::find(scene->warnings.begin(), scene->warnings.end(), warning) != scene->warnings.end();
+        std::find(scene->overlap_notes.begin(), scene->overlap_notes.end(), warning) != scene->overlap_notes.end();
     if (!is_of_scene) of_motion.push_back(warning);
   }
   for (const std::string& warning : of_motion) {
