@@ -6,7 +6,7 @@
 
 #include "model/error_budget.h"
 #include "robot/joint_kind.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

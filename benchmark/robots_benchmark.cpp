@@ -15,7 +15,7 @@
 #include "results.h"
 #include "robot_case.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

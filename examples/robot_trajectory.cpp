@@ -1,10 +1,7 @@
 // Checks a robot's trajectory for contact with the world and with itself, also between its waypoints.
 #include <cstdio>
-#include <memory>
 
-#include <sdf_ccd/body/prepare_body.h>
-#include <sdf_ccd/robot/robot_scene.h>
-#include <sdf_ccd/robot_monitor/check_motion.h>
+#include <sdf_ccd/robot_scene.h>
 
 namespace {
 
@@ -22,33 +19,23 @@ const char* const kArm = R"(<robot name="arm">
 
 int main() {
   using namespace sdf_ccd;
-  const RobotModel robot(kArm);
-  std::vector<std::string> warnings;
-  SceneDescription description = describeRobot(robot, {}, {}, {}, warnings);
-  BodyDescription post;  // between the trajectory's two ends
+  WorldObject post;  // between the trajectory's two ends
   post.name = "post";
-  post.frame = robot.root();
   post.X_frame_B = Eigen::Translation3d(0.6, 0.0, 0.6);
-  post.geometry.push_back({Primitive(Cylinder{0.02, 0.1}), Isometry3d::Identity(), "cylinder"});
-  post.is_world = true;
-  description.bodies.push_back(post);
+  post.shapes.push_back({Cylinder{0.02, 0.1}});
+  const RobotScene scene = RobotScene::parse(kArm, {}, {post});  // RobotScene::load() reads files
+  for (const std::string& warning : scene.warnings()) std::printf("warning: %s\n", warning.c_str());
 
-  const BodyOptions options = optionsFor({1e-3, {}});
-  const auto scene =
-      std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
-
-  RobotTrajectory trajectory;
-  trajectory.times = {0.0, 2.0};  // [s]
-  trajectory.states.resize(2);
-  trajectory.states[0].positions = {{"shoulder", 0.0}, {"elbow", 0.0}};
-  trajectory.states[1].positions = {{"shoulder", 1.5}, {"elbow", 0.0}};
-  const PlannedMotion motion = planAlong(robot, completePlan(robot, trajectory, {}, {}), bodiesOf(*scene, robot));
-  const CycleResult result = checkMotion(scene, {}, motion);
-
+  const RobotTrajectory trajectory = splined({"shoulder", "elbow"}, {{0.0, {0.0, 0.0}}, {2.0, {1.5, 0.0}}}, 1e-4);
+  const MotionResult result = scene.check(trajectory);
   std::printf("%s, within %.2g m\n", toString(result.verdict), result.error_bound);
-  for (const PairResult& pair : result.pairs)
-    for (const Interval& interval : pair.intervals)
-      std::printf("%s - %s: from %.3f s to %.3f s\n", scene->bodies[pair.body_a].name.c_str(),
-                  scene->bodies[pair.body_b].name.c_str(), interval.enter, interval.exit);
-  return result.verdict == Verdict::kContact ? 0 : 1;
+  for (const MotionPair& pair : result.pairs)
+    for (const Interval& contact : pair.contacts)
+      std::printf("%s - %s: from %.3f s to %.3f s, %.4f m deep\n", pair.body_a.c_str(), pair.body_b.c_str(),
+                  contact.enter, contact.exit, pair.deepest.depth);
+
+  const BodyDistance nearest = scene.distance({{"shoulder", 0.0}, {"elbow", 0.0}});
+  std::printf("at the start: %s - %s, %.4f m apart\n", nearest.body_a.c_str(), nearest.body_b.c_str(),
+              nearest.distance);
+  return result.verdict == Verdict::kContact && nearest.verdict == Verdict::kClear ? 0 : 1;
 }

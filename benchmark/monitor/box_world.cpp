@@ -7,7 +7,7 @@
 #include "monitor/fcl_scene.h"
 #include "oracle/random.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
-/// Everything needed to check moving bodies. Robots have headers of their own: sdf_ccd/robot/robot_scene.h and its
-/// neighbours.
+/// Everything needed to check moving bodies. Robots have a header of their own: sdf_ccd/robot_scene.h.
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/field/build_field.h"

@@ -10,7 +10,7 @@
 #include <urdf_model/link.h>
 
 #include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 #include <initializer_list>
 #include <stdexcept>

@@ -8,7 +8,7 @@
 
 #include "model/name_pair.h"
 #include "model/pair_rules.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd {
 

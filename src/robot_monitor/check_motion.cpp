@@ -226,9 +226,10 @@ PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot) {
   PlannedBodies planned;
   for (const Body& body : scene.bodies) {
     const int link = robot.find(body.frame);
+    const bool is_known = link >= 0 || body.frame.empty();
     planned.bodies.push_back({link, body.X_frame_B, body.ball});
-    planned.missing.push_back(link >= 0 ? ""
-                                        : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
+    planned.missing.push_back(is_known ? ""
+                                       : "the robot has no link \"" + body.frame + "\", the frame of " + body.name);
   }
   return planned;
 }

@@ -129,6 +129,11 @@ std::string sentence(const Pairs& pairs, const std::string& what) {
 
 }  // namespace
 
+OverlapRule overlapRule(OverlapRule::Kind kind, const Srdf& srdf, std::vector<PairRule> kept) {
+  for (const auto& [a, b] : srdf.enabled) kept.push_back({a, b});
+  return {kind, std::move(kept)};
+}
+
 std::vector<PairDecision> applyOverlapRule(const RobotModel& robot, const OverlapRule& rule, Scene& scene) {
   Pairs found, set_aside;
   const Decider decider(robot, rule, scene);

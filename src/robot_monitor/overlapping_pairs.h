@@ -5,6 +5,7 @@
 
 #include "model/pair_rules.h"
 #include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot/robot_model.h"
 
 namespace sdf_ccd {
@@ -20,6 +21,9 @@ struct OverlapRule {
   Kind kind = Kind::kNeighbours;
   std::vector<PairRule> kept;  ///< pairs that stay all the same
 };
+
+/// The rule that keeps the given pairs, and those that an SRDF enables.
+OverlapRule overlapRule(OverlapRule::Kind kind, const Srdf& srdf, std::vector<PairRule> kept = {});
 
 /// Finds pairs of links that overlap, touch as neighbours, or may overlap at rest, and removes those from the scene
 /// that the rule sets aside: they would be in contact nearly always, which costs most time and says little. That is no

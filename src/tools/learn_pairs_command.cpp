@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -12,7 +11,7 @@
 #include "model/name_pair.h"
 #include "output_file.h"
 #include "progress_bar.h"
-#include "read_text.h"
+#include "robot/robot_files.h"
 #include "robot/srdf_pairs.h"
 #include "robot_monitor/learn_pairs.h"
 #include "threads_option.h"
@@ -22,8 +21,6 @@
 
 namespace sdf_ccd::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kUnknown = 10;  // printed pairs that are not learned: their reasons are often the same
 
@@ -108,25 +105,20 @@ void run(const LearnPairsArguments& arguments) {
   if (arguments.seed < 0) throw std::runtime_error("--seed must not be negative");
   if (!(arguments.max_error > 0.0)) throw std::runtime_error("--max-error must be positive");
   const auto limit = arguments.threads.limit();
-  const std::string directory = fs::absolute(arguments.urdf).parent_path().string();
-  const PackageFinder packages = packagesFromEnvironment();
-  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, directory); };
-  const RobotModel robot(readText(arguments.urdf), arguments.urdf);
-  const std::string given = arguments.srdf.empty() ? "" : readText(arguments.srdf);
-  const Srdf srdf = given.empty() ? Srdf() : parseSrdf(given, arguments.srdf);
-  LearnOptions options = learnOptions(arguments, robot);
+  const LoadedRobot robot = loadRobot(arguments.urdf, arguments.srdf);
+  LearnOptions options = learnOptions(arguments, robot.model);
   const Interrupt interrupt;
   OutputFile out(arguments.out);
   LearnedPairs pairs;
   try {
     Bars bars;
     options.progress = [&](const std::string& what, double share) { bars.show(what, share); };
-    interrupt.during([&] { pairs = learnPairs(robot, srdf, loader, options); });
+    interrupt.during([&] { pairs = learnPairs(robot.model, robot.srdf, robot.loader, options); });
   } catch (const Interrupted&) {
     throw std::runtime_error("interrupted: nothing is written to " + arguments.out);
   }
   for (const std::string& warning : pairs.warnings) std::cerr << "sdf_ccd: warning: " << warning << std::endl;
-  out.stream() << srdfWith(pairs, robot, given);
+  out.stream() << srdfWith(pairs, robot.model, robot.srdf_text);
   out.commit();
   printReport(pairs);
   if (pairs.unknown.empty()) return;

@@ -1,6 +1,5 @@
 #include "prepare_robot.h"
 
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -11,10 +10,9 @@
 #include "body/body_options.h"
 #include "model/error_budget.h"
 #include "prepare_scene.h"
-#include "read_text.h"
+#include "robot/robot_files.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -55,19 +53,14 @@ std::string parametersOf(const RobotFiles& files) {
 }  // namespace
 
 void prepareRobot(const RobotFiles& files, const std::string& directory) {
-  const std::string base = std::filesystem::absolute(files.urdf).parent_path().string();
-  const PackageFinder packages = packagesFromEnvironment();
-  const ResourceLoader loader = [&](const std::string& uri) { return loadLocalResource(uri, packages, base); };
-  const RobotModel robot(readText(files.urdf), files.urdf);
-  const Srdf srdf = files.srdf.empty() ? Srdf() : parseSrdf(readText(files.srdf), files.srdf);
-  OverlapRule overlaps;
-  for (const auto& [a, b] : srdf.enabled) overlaps.kept.push_back({a, b});
+  const LoadedRobot robot = loadRobot(files.urdf, files.srdf);
+  const OverlapRule overlaps = overlapRule(OverlapRule::Kind::kNeighbours, robot.srdf);
   Preparation preparation;
   preparation.options = optionsOf(files);
-  preparation.scene = describeRobot(robot, srdf, loader, {}, preparation.warnings);
+  preparation.scene = describeRobot(robot.model, robot.srdf, robot.loader, {}, preparation.warnings);
   preparation.build = [&](const ScenePlan& plan, const BodyOptions& options, const SceneProgress& progress) {
     Scene scene = buildScene(preparation.scene, plan, options, progress);
-    applyOverlapRule(robot, overlaps, scene);
+    applyOverlapRule(robot.model, overlaps, scene);
     return std::make_shared<const Scene>(std::move(scene));
   };
   preparation.parameters = parametersOf(files);

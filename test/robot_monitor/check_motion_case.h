@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sdf_ccd/body/prepare_body.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd::test {

@@ -10,7 +10,7 @@
 #include "oracle/parameter_name.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::hostile_mesh_test {
 

@@ -8,7 +8,7 @@
 
 #include "model/name_pair.h"
 #include "sdf_ccd/body/prepare_body.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::overlapping_pairs_test {
 
@@ -61,7 +61,7 @@ struct Cart {
   Scene scene;
 
   explicit Cart(bool check_adjacent = false) {
-    RobotSceneOptions options;
+    RobotPairOptions options;
     options.check_adjacent = check_adjacent;
     std::vector<std::string> warnings;
     const SceneDescription description = describeRobot(robot, {}, noResource, options, warnings);

@@ -6,7 +6,7 @@
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::real_robots_test {
 

@@ -14,7 +14,7 @@
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd::robot_in_map_test {

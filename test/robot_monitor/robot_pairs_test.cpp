@@ -3,26 +3,26 @@
 #include <gtest/gtest.h>
 
 #include "oracle/failure.h"
-#include "robot_monitor/robot_scene_case.h"
+#include "robot_monitor/describe_robot_case.h"
 
 namespace sdf_ccd::robot_pairs_test {
 
 using namespace test;
 
-TEST(RobotScene, RigidAndAdjacentLinksAreNoPairs) {
+TEST(DescribeRobot, RigidAndAdjacentLinksAreNoPairs) {
   const SceneDescription scene = describe(chain()).scene;
   EXPECT_EQ(reasonFor(scene, "c", "d"), "rigidly joined");
   EXPECT_EQ(reasonFor(scene, "a", "b"), "adjacent");
   EXPECT_EQ(reasonFor(scene, "b", "d"), "checked") << "however far apart";
   EXPECT_EQ(reasonFor(scene, "a", "c"), "checked");
-  RobotSceneOptions options;
+  RobotPairOptions options;
   options.check_adjacent = true;
   const SceneDescription adjacent = describe(chain(), {}, options).scene;
   EXPECT_EQ(reasonFor(adjacent, "c", "d"), "rigidly joined");
   EXPECT_EQ(reasonFor(adjacent, "a", "b"), "checked");
 }
 
-TEST(RobotScene, SrdfDisablesAndEnables) {
+TEST(DescribeRobot, SrdfDisablesAndEnables) {
   Srdf srdf = parseSrdf(R"(<robot name="chain">
       <disable_collisions link1="c" link2="a" reason="Never"/>
       <disable_collisions link1="ghost" link2="a" reason="Never"/>
@@ -44,7 +44,7 @@ TEST(RobotScene, SrdfDisablesAndEnables) {
   EXPECT_EQ(reasonFor(enabled, "c", "d"), "rigidly joined");
 }
 
-TEST(RobotScene, AnSrdfOfAnotherRobotIsTold) {
+TEST(DescribeRobot, AnSrdfOfAnotherRobotIsTold) {
   const Described described = describe(chain(), parseSrdf("<robot name='crane'/>"));
   ASSERT_EQ(described.warnings.size(), 1u);
   EXPECT_EQ(described.warnings[0].find("the SRDF is of robot crane, the URDF of robot chain"), 0u);
@@ -52,7 +52,7 @@ TEST(RobotScene, AnSrdfOfAnotherRobotIsTold) {
   EXPECT_TRUE(describe(chain(), parseSrdf("<robot/>")).warnings.empty());
 }
 
-TEST(RobotScene, AnSrdfsOwnWarningsAndUnknownLinksAreTold) {
+TEST(DescribeRobot, AnSrdfsOwnWarningsAndUnknownLinksAreTold) {
   const Described described = describe(
       chain(), parseSrdf("<robot><virtual_joint name='world' type='fixed' parent_frame='map' child_link='torso'/>"
                          "<disable_collisions link1='${p}a' link2='b'/></robot>"));
@@ -62,7 +62,7 @@ TEST(RobotScene, AnSrdfsOwnWarningsAndUnknownLinksAreTold) {
   EXPECT_EQ(described.warnings[2], "the SRDF names link torso, which the URDF does not have");
 }
 
-TEST(RobotScene, SrdfMayNamePatterns) {
+TEST(DescribeRobot, SrdfMayNamePatterns) {
   Srdf srdf;
   srdf.disabled = {{"a", "?", "SRDF: Never"}, {"x*", "a", "SRDF: Never"}};
   const Described disabled = describe(chain(), srdf);
@@ -79,7 +79,7 @@ TEST(RobotScene, SrdfMayNamePatterns) {
   EXPECT_EQ(reasonFor(describe(chain(), srdf).scene, "a", "c"), "checked");
 }
 
-TEST(RobotScene, ThousandsOfLinksAreRefused) {
+TEST(DescribeRobot, ThousandsOfLinksAreRefused) {
   std::string urdf = "<robot name='centipede'>";
   for (int i = 0; i < 1000; ++i) {
     const std::string name = "l" + std::to_string(i);
@@ -109,7 +109,7 @@ BodyDescription worldBox(const std::string& name, const std::string& frame, cons
 }
 
 /// A base that stands in the world, a chain of three links on it, the last two of which are rigidly joined.
-TEST(RobotScene, WorldObjectsInTheRootsFrameAreRigidlyJoinedToIt) {
+TEST(DescribeRobot, WorldObjectsInTheRootsFrameAreRigidlyJoinedToIt) {
   const std::string cube = box("0.1 0.1 0.1");
   const RobotModel robot("<robot name='r'>" + link("world") + link("base", cube) + link("arm", cube) +
                          link("hand", cube) + joint("world", "base", "fixed", "0 0 1") +

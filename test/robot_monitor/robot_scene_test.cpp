@@ -1,261 +1,530 @@
-#include "sdf_ccd/robot/robot_scene.h"
-
-#include <array>
-#include <cmath>
-#include <map>
-#include <random>
+#include "sdf_ccd/robot_scene.h"
 
 #include <gtest/gtest.h>
 
-#include "robot_monitor/robot_scene_case.h"
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+#include <thread>
+
+#include "body/body_options.h"
+#include "model/error_budget.h"
+#include "oracle/files.h"
+#include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd::robot_scene_test {
 
-using namespace test;
+using Names = std::vector<std::pair<std::string, std::string>>;
 
-TEST(RobotScene, LinksWithCollisionElementsAreBodies) {
-  const Described described =
-      describe("<robot name='r'>" +
-               link("a", "<collision><geometry><sphere radius='0.2'/></geometry></collision>" + box("2 4 6", "1 2 3") +
-                             "<collision><geometry><cylinder radius='0.1' length='3'/></geometry></collision>") +
-               link("frame") + joint("a", "frame", "fixed", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 1u);
-  const BodyDescription& body = described.scene.bodies[0];
-  EXPECT_EQ(body.name, "a");
-  EXPECT_EQ(body.frame, "a");
-  EXPECT_EQ(body.failure, "");
-  EXPECT_FALSE(body.is_world);
-  ASSERT_EQ(body.geometry.size(), 3u);
-  EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(body.geometry[0].shape)).radius, 0.2);
-  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body.geometry[1].shape)).half_size, Vector3d(1, 2, 3));
-  EXPECT_EQ(body.geometry[1].X_BG.translation(), Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<Cylinder>(std::get<Primitive>(body.geometry[2].shape)).half_length, 1.5);
-  EXPECT_EQ(body.geometry[2].source, "cylinder");
-  EXPECT_TRUE(described.warnings.empty());
+/// Two links in a row that rotate about y: along the arm, the upper one is from 0.05 to 0.45 m from the shoulder, which
+/// is in the world's origin, and the fore one from 0.52 to 0.88 m, 4 cm wide.
+const std::string kBase = R"(<robot name="arm">
+  <link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision></link>)";
+const std::string kUpper = R"(
+  <link name="upper"><collision><origin xyz="0 0 0.25"/><geometry><box size="0.05 0.05 0.4"/></geometry></collision>
+  </link>)";
+const std::string kFore = R"(
+  <link name="fore"><collision><origin xyz="0 0 0.2"/><geometry><box size="0.04 0.04 0.36"/></geometry></collision>
+  </link>)";
+const std::string kJoints = R"(
+  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
+    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0 0 0.5"/>
+    <axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+</robot>)";
+const std::string kArm = kBase + kUpper + kFore + kJoints;
+
+constexpr double kPostAngle = 0.75, kPostAt = 0.7, kRadius = 0.03;       // a ball that the fore link passes through
+constexpr double kHalfWidth = 0.02;                                      // of the fore link
+const double kTouchAngle = std::asin((kHalfWidth + kRadius) / kPostAt);  // between arm and ball when they touch
+
+Vector3d along(double angle, double distance) {
+  return distance * Vector3d(std::sin(angle), 0.0, std::cos(angle));
 }
 
-TEST(RobotScene, LinksThatAreOnlySeenAreNamed) {
-  const std::string visual = "<visual><geometry><sphere radius='0.2'/></geometry></visual>";
-  const Described described =
-      describe("<robot name='r'>" + link("a", box("1 1 1", "0 0 0") + visual) + link("frame") +
-               joint("a", "frame", "fixed", "0 0 0") + link("cover", visual) + joint("a", "cover", "fixed", "0 0 0") +
-               link("lid", visual) + joint("a", "lid", "continuous", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 1u);
-  EXPECT_EQ(described.scene.visual_only, (std::vector<std::string>{"cover", "lid"}));
-  ASSERT_EQ(described.warnings.size(), 1u);
-  EXPECT_EQ(described.warnings[0],
-            "2 links have a visual but no collision shape, so their contacts are not detected: cover lid");
+WorldObject ball(const std::string& name, const Vector3d& center, double radius, const std::string& frame = {}) {
+  return {name, frame, Isometry3d(Eigen::Translation3d(center)), {{Sphere{radius}}}};
 }
 
-TEST(RobotScene, MeshesAreSharedByUriAndScale) {
-  const Described described = describe(
-      "<robot name='r'>" +
-      link("a", mesh("good.off") + mesh("good.off") + mesh("good.off", "1 -2 3") + mesh("good.off", "1 -2 3")) +
-      "</robot>");
-  using Mesh = std::shared_ptr<const TriangleMesh>;
-  const auto& geometry = described.scene.bodies.at(0).geometry;
-  ASSERT_EQ(geometry.size(), 4u);
-  const auto meshOf = [&](int i) { return std::get<Mesh>(geometry[i].shape); };
-  EXPECT_EQ(meshOf(0), meshOf(1));
-  EXPECT_EQ(meshOf(2), meshOf(3));
-  EXPECT_NE(meshOf(0), meshOf(2));
-  // Mirrored about y: the vertices move, and the triangle's orientation is reversed with them.
-  EXPECT_EQ(boundingBox(*meshOf(2)).min(), Vector3d(0, -4, 0));
-  EXPECT_LT(areaNormal(*meshOf(0), 0).z() * -2.0, 0.0);
-  EXPECT_NEAR(areaNormal(*meshOf(2), 0).z(), 2.0 * areaNormal(*meshOf(0), 0).z(), 1e-12);
-  EXPECT_EQ(geometry[2].source, "good.off");
+const WorldObject kPost = ball("post", along(kPostAngle, kPostAt), kRadius);
+
+/// At constant speed; the elbow stays straight.
+RobotTrajectory swing(double from, double to, double start = 0.0, double end = 1.0) {
+  RobotTrajectory trajectory;
+  trajectory.times = {start, end};
+  trajectory.states.resize(2);
+  trajectory.states[0].positions = {{"shoulder", from}, {"elbow", 0.0}};
+  trajectory.states[1].positions = {{"shoulder", to}, {"elbow", 0.0}};
+  return trajectory;
 }
 
-TEST(RobotScene, ElementsThatTheParserDropsCostTheirLinkAlone) {
-  const std::string cube = box("0.1 0.1 0.1");
-  const Described described =
-      describe("<robot name='r'>" + link("good", cube) + link("short", cube + box("1 1")) +
-               link("nan", box("1 1 1", "nan 0 0")) +
-               link("capsule", "<collision><geometry><capsule radius='1'/></geometry></collision>") +
-               link("empty", "<collision/>") + link("heavy", "<inertial><mass value='much'/></inertial>" + cube) +
-               link("frame", "<visual><geometry><box size='1 1'/></geometry></visual>") +
-               joint("good", "short", "floating", "0 0 0") + joint("good", "nan", "floating", "0 0 0") +
-               joint("good", "capsule", "floating", "0 0 0") + joint("good", "empty", "floating", "0 0 0") +
-               joint("good", "heavy", "floating", "0 0 0") + joint("good", "frame", "floating", "0 0 0") + "</robot>");
-  std::map<std::string, std::string> failures;
-  for (const BodyDescription& body : described.scene.bodies) failures[body.name] = body.failure;
-  ASSERT_EQ(failures.size(), 6u);  // the frame has no collision element
-  EXPECT_EQ(failures["good"], "");
-  EXPECT_EQ(failures["short"].find("link short: line 1 of the URDF: 1 of 2 collision elements cannot be read: "), 0u)
-      << failures["short"];
-  EXPECT_NE(failures["nan"].find("nan"), std::string::npos);
-  EXPECT_NE(failures["capsule"].find("capsule"), std::string::npos);
-  EXPECT_NE(failures["empty"].find("1 of 1 collision elements"), std::string::npos);
-  EXPECT_EQ(failures["heavy"], "") << "no shape depends on its mass";
+bool hasLine(const std::vector<std::string>& lines, const std::string& part) {
+  for (const std::string& line : lines)
+    if (line.find(part) != std::string::npos) return true;
+  return false;
 }
 
-/// Radius 0.1, 0.6 long between the centres, turned from z to x, about (1, 2, 3).
-TEST(RobotScene, ACapsuleIsACylinderAndTwoSpheres) {
-  const std::string shape = "<geometry><capsule radius='0.1' length='0.6'/></geometry>";
-  const Described described = describe(
-      "<robot name='r' version='1.2'>" +
-      link("arm", "<visual>" + shape + "</visual>" + box("0.1 0.1 0.1") +
-                      "<collision><origin xyz='1 2 3' rpy='0 1.5707963267948966 0'/>" + shape + "</collision>") +
-      link("ball", "<collision><geometry><capsule radius='0.1' length='0'/></geometry></collision>") +
-      link("turned", "<collision><geometry><capsule radius='0.1' length='-0.6'/></geometry></collision>") +
-      joint("arm", "ball", "floating", "0 0 0") + joint("arm", "turned", "floating", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 3u);
-  const BodyDescription& arm = described.scene.bodies[0];
-  EXPECT_EQ(arm.failure, "");
-  EXPECT_TRUE(described.warnings.empty());
-  ASSERT_EQ(arm.geometry.size(), 4u);
-  // The truth: the distance to the segment between the centres, less the radius.
-  const auto truth = [](const Vector3d& p) {
-    const double x = std::max(0.7, std::min(1.3, p.x()));
-    return (p - Vector3d(x, 2.0, 3.0)).norm() - 0.1;
+/// The message of the exception that a call throws; empty if it throws none of this type.
+template <class Error>
+std::string messageOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(RobotScene, FindsTheContactByNameTimeAndDepth) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  EXPECT_TRUE(scene.warnings().empty());
+  EXPECT_EQ(scene.pairs(), (Names{{"base", "fore"}, {"base", "post"}, {"upper", "post"}, {"fore", "post"}}));
+
+  MotionCheckOptions options;
+  options.max_points = 3;
+  const MotionResult result = scene.check(swing(0.0, 1.5, 10.0, 12.0), options);
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  EXPECT_GT(result.error_bound, 0.0);
+  EXPECT_LT(result.error_bound, 2e-3);
+  EXPECT_TRUE(result.assumed.empty());
+  EXPECT_TRUE(result.notes.empty());
+  ASSERT_EQ(result.pairs.size(), 4U);
+  const MotionPair& hit = result.pairs.front();
+  EXPECT_EQ(hit.body_a, "fore");
+  EXPECT_EQ(hit.body_b, "post");
+  EXPECT_EQ(hit.verdict, Verdict::kContact);
+  const double enter = 10.0 + (kPostAngle - kTouchAngle) / 0.75, exit = 10.0 + (kPostAngle + kTouchAngle) / 0.75;
+  ASSERT_EQ(hit.contacts.size(), 1U);
+  EXPECT_NEAR(hit.contacts[0].enter, enter, 0.01);
+  EXPECT_NEAR(hit.contacts[0].exit, exit, 0.01);
+  ASSERT_TRUE(hit.first_contact);
+  EXPECT_LE(hit.first_contact->enter, enter + 1e-9);
+  EXPECT_GE(hit.first_contact->exit, enter - 1e-9);
+  EXPECT_LT(hit.first_contact->exit - hit.first_contact->enter, 5e-3);
+  EXPECT_NEAR(hit.deepest.depth, kRadius, hit.deepest.depth_error + 1e-9);  // when a side passes the ball's centre
+  EXPECT_LT(hit.deepest.depth_error, 1e-3);
+  EXPECT_GE(hit.deepest.time, enter - 0.01);
+  EXPECT_LE(hit.deepest.time, exit + 0.01);
+  EXPECT_LE((hit.deepest.p_W - kPost.X_frame_B.translation()).norm(), kRadius + 1e-3);
+  ASSERT_FALSE(hit.points.empty());
+  EXPECT_LE(hit.points.size(), 3U);
+  EXPECT_GE(hit.points[0].enter, enter - 0.01);
+  EXPECT_LE(hit.points[0].exit, exit + 0.01);
+  EXPECT_TRUE(hit.on_b_W.force.allFinite());
+  EXPECT_EQ(result.find("post", "fore"), &hit);
+  EXPECT_EQ(result.find("post", "upper")->verdict, Verdict::kClear);
+  EXPECT_EQ(result.find("base", "upper"), nullptr);  // adjacent
+
+  EXPECT_EQ(scene.check(swing(0.0, kPostAngle - kTouchAngle - 0.001)).verdict, Verdict::kClear);
+  EXPECT_EQ(scene.check(swing(0.0, kPostAngle - kTouchAngle + 0.001)).verdict, Verdict::kContact);
+  options = {};
+  options.margin = 0.1;
+  EXPECT_EQ(scene.check(swing(0.0, kPostAngle - 0.2), options).verdict, Verdict::kUncertain);  // 0.09 m apart
+  options = {};
+  options.contacts = false;
+  EXPECT_EQ(scene.check(swing(0.0, 1.5), options).verdict, Verdict::kContact);
+}
+
+TEST(RobotScene, MeasuresTheSmallestDistance) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  for (const double apart : {0.1, 0.2, 0.4}) {
+    const double angle = kPostAngle - apart;
+    const BodyDistance nearest = scene.distance({{"shoulder", angle}, {"elbow", 0.0}});
+    const double truth = kPostAt * std::sin(apart) - kHalfWidth - kRadius;
+    EXPECT_EQ(nearest.body_a, "fore");
+    EXPECT_EQ(nearest.body_b, "post");
+    EXPECT_EQ(nearest.verdict, Verdict::kClear);
+    EXPECT_EQ(nearest.reason, "");
+    EXPECT_NEAR(nearest.distance, truth, nearest.error + 1e-12);
+    EXPECT_LT(nearest.error, 1e-3);
+    const Vector3d across(std::cos(angle), 0.0, -std::sin(angle));
+    EXPECT_LT((nearest.normal - across).norm(), 0.05);
+    EXPECT_LT((nearest.point_a - along(angle, kPostAt * std::cos(apart)) - kHalfWidth * across).norm(), 5e-3);
+    EXPECT_LT((nearest.point_b - kPost.X_frame_B.translation() + kRadius * across).norm(), 5e-3);
+    EXPECT_EQ(nearest.depth, 0.0);
+  }
+  const BodyDistance inside = scene.distance({{"shoulder", kPostAngle}, {"elbow", 0.0}});
+  EXPECT_EQ(inside.body_b, "post");
+  EXPECT_EQ(inside.verdict, Verdict::kContact);
+  EXPECT_EQ(inside.distance, 0.0);
+  EXPECT_NEAR(inside.depth, kHalfWidth, inside.depth_error + 1e-9);
+  EXPECT_LT(inside.depth_error, 1e-3);
+}
+
+TEST(RobotScene, ListsDistancesWithinARange) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  const double angle = kPostAngle - 0.4;
+  const JointPositions joints = {{"shoulder", angle}, {"elbow", 0.0}};
+  // In the arm's plane: the end of the upper link, the corner of the fore link that is nearest to the base's edge.
+  const double to_upper = std::hypot(kPostAt * std::cos(0.4) - 0.45, kPostAt * std::sin(0.4) - 0.025) - kRadius;
+  const Vector3d corner = along(angle, 0.52) + kHalfWidth * Vector3d(std::cos(angle), 0.0, -std::sin(angle)),
+                 edge(0.1, 0.0, 0.05);
+  const std::vector<double> truth = {kPostAt * std::sin(0.4) - kHalfWidth - kRadius, to_upper, (corner - edge).norm(),
+                                     (kPost.X_frame_B.translation() - edge).norm() - kRadius};
+  const Names names = {{"fore", "post"}, {"upper", "post"}, {"base", "fore"}, {"base", "post"}};
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const auto& [range, count] : {std::pair(0.2, 0U), {0.25, 1U}, {0.3, 2U}, {0.5, 3U}, {1.0, 4U}, {infinite, 4U}}) {
+    const std::vector<BodyDistance> near = scene.distances(joints, range);
+    ASSERT_EQ(near.size(), count) << range;
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(std::pair(near[i].body_a, near[i].body_b), names[i]);
+      EXPECT_NEAR(near[i].distance, truth[i], near[i].error + 1e-12);
+      EXPECT_LT(near[i].error, 2e-3);
+    }
+  }
+  EXPECT_THROW(scene.distances(joints, -1.0), std::invalid_argument);
+  EXPECT_THROW(scene.distances(joints, std::nan("")), std::invalid_argument);
+}
+
+TEST(RobotScene, JointsThatAreNotNamedAreWhereTheyAreSaidToBe) {
+  RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  RobotTrajectory shoulder = swing(0.0, 1.5);
+  for (RobotState& state : shoulder.states) state.positions.erase("elbow");
+  const MotionResult unknown = scene.check(shoulder);
+  EXPECT_EQ(unknown.verdict, Verdict::kNotChecked);
+  EXPECT_NE(unknown.find("fore", "post")->reason.find("elbow"), std::string::npos);
+  EXPECT_NE(unknown.find("fore", "post")->reason.find("setJoints"), std::string::npos);
+  EXPECT_EQ(unknown.find("upper", "post")->verdict, Verdict::kClear);
+  BodyDistance nearest = scene.distance({{"shoulder", kPostAngle - 0.4}});
+  EXPECT_EQ(nearest.body_a, "upper");
+  EXPECT_EQ(nearest.verdict, Verdict::kNotChecked);
+  EXPECT_NE(nearest.reason.find("elbow"), std::string::npos) << nearest.reason;
+  const std::vector<BodyDistance> near = scene.distances({{"shoulder", kPostAngle - 0.4}}, 0.3);
+  ASSERT_EQ(near.size(), 3U);  // two that are not known, and upper - post
+  EXPECT_EQ(near[0].verdict, Verdict::kNotChecked);
+  EXPECT_TRUE(std::isnan(near[0].distance));
+  EXPECT_EQ(near[2].body_a, "upper");
+
+  scene.setJoints({{"elbow", 0.0}});
+  const MotionResult known = scene.check(shoulder);
+  EXPECT_EQ(known.verdict, Verdict::kContact);
+  ASSERT_EQ(known.assumed.size(), 1U);
+  EXPECT_EQ(known.assumed[0].name, "elbow");
+  EXPECT_NEAR(known.assumed[0].position, 0.0, 1e-12);
+  EXPECT_TRUE(hasLine(known.notes, "elbow"));
+  scene.setJoints({{"elbow", -2.0}});  // folded: the ball is not reached
+  EXPECT_EQ(scene.check(shoulder).find("fore", "post")->verdict, Verdict::kClear);
+  EXPECT_THROW(scene.setJoints({{"wrist", 0.0}}), std::invalid_argument);
+  EXPECT_THROW(scene.setJoints({{"elbow", std::nan("")}}), std::invalid_argument);
+  EXPECT_NEAR(scene.check(shoulder).assumed.at(0).position, -2.0, 1e-12);
+  nearest = scene.distance({{"shoulder", 3.5}});  // beyond its limit
+  EXPECT_NE(nearest.verdict, Verdict::kNotChecked);
+}
+
+TEST(RobotScene, TheRobotMovesAmongObjectsOfTheWorld) {
+  const WorldObject wall = {"wall", {}, Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0)), {{Box{{0.05, 0.1, 0.02}}}}};
+  const RobotScene scene = RobotScene::parse(kArm, {}, {wall});
+  RobotTrajectory drive = swing(0.0, 0.0);
+  drive.states[1].X_WR.translation().x() = 1.0;
+  const MotionResult result = scene.check(drive);
+  ASSERT_EQ(result.verdict, Verdict::kContact);
+  ASSERT_EQ(result.find("base", "wall")->contacts.size(), 1U);
+  EXPECT_NEAR(result.find("base", "wall")->contacts[0].enter, 0.65, 5e-3);
+  RobotState there = drive.states[1];
+  there.X_WR.translation().x() = 0.5;
+  EXPECT_NEAR(scene.distance(there).distance, 0.15, 1e-6);
+  EXPECT_NEAR(scene.distances(there, 0.2).at(0).distance, 0.15, 1e-6);
+}
+
+TEST(RobotScene, ChecksManyMotions) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  std::vector<RobotTrajectory> motions;
+  for (int i = 0; i < 40; ++i) motions.push_back(swing(-1.0 + 0.05 * i, -0.8 + 0.05 * i, double(i), i + 1.0));
+  const std::vector<MotionSummary> found = scene.checkMotions(motions);
+  ASSERT_EQ(found.size(), motions.size());
+  int contacts = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double from = -1.0 + 0.05 * i, low = kPostAngle - kTouchAngle, high = kPostAngle + kTouchAngle;
+    const bool touches = from < high && from + 0.2 > low;
+    if (std::abs(from - high) < 1e-3 || std::abs(from + 0.2 - low) < 1e-3) continue;
+    const MotionSummary& summary = found[static_cast<std::size_t>(i)];
+    EXPECT_EQ(summary.verdict, touches ? Verdict::kContact : Verdict::kClear) << i;
+    EXPECT_EQ(summary.verdict, scene.check(motions[static_cast<std::size_t>(i)]).verdict) << i;
+    EXPECT_EQ(summary.body_a, touches ? "fore" : "");
+    EXPECT_EQ(summary.body_b, touches ? "post" : "");
+    if (touches) {
+      const double angle = from + 0.2 * (summary.time - i);
+      EXPECT_GE(angle, low - 1e-3) << i;
+      EXPECT_LE(angle, high + 1e-3) << i;
+    } else {
+      EXPECT_TRUE(std::isnan(summary.time));
+    }
+    contacts += touches;
+  }
+  EXPECT_GT(contacts, 3);
+  motions[7].states[1].positions["wrist"] = 0.0;
+  const std::string message = messageOf<std::invalid_argument>([&] { scene.checkMotions(motions); });
+  EXPECT_EQ(message.rfind("motion 7: ", 0), 0U) << message;
+  EXPECT_NE(message.find("wrist"), std::string::npos) << message;
+  EXPECT_TRUE(scene.checkMotions({}).empty());
+}
+
+TEST(RobotScene, ObjectsComeMoveAndGo) {
+  RobotScene scene = RobotScene::parse(kArm);
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kClear);
+  scene.addObject(kPost);
+  EXPECT_EQ(scene.objects(), std::vector<std::string>{"post"});
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kContact);
+  scene.moveObject("post", Isometry3d(Eigen::Translation3d(along(kPostAngle, 1.2))));
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kClear);
+  EXPECT_NEAR(scene.distance({{"shoulder", kPostAngle}, {"elbow", 0.0}}).distance, 1.2 - 0.88 - kRadius, 1e-4);
+
+  // A ball in the hand, which reaches the post: its centre is 1.2 m from the shoulder as well.
+  const WorldObject held = ball("held", Vector3d(0.0, 0.0, 0.7), 0.05, "fore");
+  scene.addObject(held);
+  const MotionResult carried = scene.check(swing(0.0, 1.5));
+  EXPECT_EQ(carried.verdict, Verdict::kContact);
+  EXPECT_EQ(carried.find("held", "fore"), nullptr);  // it carries it
+  ASSERT_EQ(carried.find("held", "post")->contacts.size(), 1U);
+  EXPECT_NEAR(carried.find("held", "post")->contacts[0].enter,
+              (kPostAngle - 2.0 * std::asin(0.5 * (0.05 + kRadius) / 1.2)) / 1.5, 5e-3);
+  scene.addObject(held, {"po*"});
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).find("held", "post"), nullptr);
+  EXPECT_EQ(scene.objects(), (std::vector<std::string>{"post", "held"}));
+  scene.removeObject("held");
+  scene.removeObject("post");
+  EXPECT_TRUE(scene.objects().empty());
+  EXPECT_EQ(scene.pairs(), (Names{{"base", "fore"}}));
+}
+
+TEST(RobotScene, BadObjectsAreRefusedAndNothingChanges) {
+  RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  const auto expectRefused = [&](const WorldObject& object, const std::string& part) {
+    const std::string message = messageOf<std::invalid_argument>([&] { scene.addObject(object); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(scene.objects(), std::vector<std::string>{"post"});
+    EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kContact);
   };
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> side(-0.6, 0.6);
-  int inside = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const Vector3d p = Vector3d(1.0, 2.0, 3.0) + Vector3d(side(random), side(random) / 3.0, side(random) / 3.0);
-    double distance = HUGE_VAL;
-    for (std::size_t g = 1; g < arm.geometry.size(); ++g) {
-      const Vector3d p_G = arm.geometry[g].X_BG.inverse() * p;
-      distance = std::min(distance, signedDistance(std::get<Primitive>(arm.geometry[g].shape), p_G));
+  expectRefused(ball("", Vector3d::Zero(), 0.1), "must not be empty");
+  expectRefused(ball("p*", Vector3d::Zero(), 0.1), "wildcards");
+  expectRefused(ball("fore", Vector3d::Zero(), 0.1), "link of this name");
+  expectRefused(ball("tool", Vector3d::Zero(), 0.1, "hand"), "no link \"hand\"");
+  expectRefused({"tool", {}, Isometry3d::Identity(), {}}, "no shape");
+  expectRefused(ball("tool", Vector3d(std::nan(""), 0.0, 0.0), 0.1), "pose");
+  expectRefused(ball("post", Vector3d::Zero(), -0.1), "-0.1");
+  expectRefused({"post", {}, Isometry3d::Identity(), {{MeshObject{"none.stl", Vector3d::Ones()}}}}, "none.stl");
+  EXPECT_THROW(scene.moveObject("tool", Isometry3d::Identity()), std::invalid_argument);
+  EXPECT_THROW(scene.removeObject("tool"), std::invalid_argument);
+  EXPECT_THROW(RobotScene::parse(kArm, {}, {kPost, kPost}), std::invalid_argument);
+  EXPECT_THROW(RobotScene::parse(kArm, {}, {ball("tool", Vector3d::Zero(), 0.1, "hand")}), std::invalid_argument);
+  const RobotScene bad = RobotScene::parse(kArm, {}, {ball("post", Vector3d::Zero(), -0.1)});
+  EXPECT_EQ(bad.check(swing(0.0, 1.5)).verdict, Verdict::kNotChecked);
+  EXPECT_TRUE(hasLine(bad.warnings(), "post"));
+}
+
+TEST(RobotScene, BadMotionsAreRefused) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  const auto expectRefused = [&](const RobotTrajectory& trajectory, const std::string& part) {
+    const std::string message = messageOf<std::invalid_argument>([&] { scene.check(trajectory); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  RobotTrajectory bad = swing(0.0, 1.0);
+  bad.states[0].positions["wrist"] = bad.states[1].positions["wrist"] = 0.0;
+  expectRefused(bad, "wrist");
+  bad = swing(0.0, 1.0);
+  bad.states.pop_back();
+  expectRefused(bad, "2 times and 1 state");
+  bad.times.pop_back();
+  expectRefused(bad, "1 waypoint");
+  expectRefused({}, "0 waypoints");
+  bad = swing(0.0, 1.0);
+  bad.states[1].positions.erase("elbow");
+  expectRefused(bad, "");
+  EXPECT_THROW(scene.check(bad), std::invalid_argument);
+  expectRefused(swing(0.0, 3.1), "limits");
+  EXPECT_THROW(scene.check(swing(0.0, 1.0, 2.0, 1.0)), std::invalid_argument);
+  EXPECT_THROW(scene.check(swing(0.0, std::nan(""))), std::invalid_argument);
+  EXPECT_THROW(scene.distance({{"wrist", 0.0}}), std::invalid_argument);
+  MotionCheckOptions options;
+  options.allow_beyond_limits = true;
+  EXPECT_EQ(scene.check(swing(0.0, 3.1), options).verdict, Verdict::kContact);
+  options.margin = -1.0;
+  EXPECT_THROW(scene.check(swing(0.0, 1.0), options), std::invalid_argument);
+  RobotSceneOptions wrong;
+  wrong.max_error = 1.0;
+  EXPECT_THROW(RobotScene::parse(kArm, {}, {}, wrong), std::invalid_argument);
+}
+
+class RobotSceneFiles : public ::testing::Test {
+ protected:
+  std::string write(const std::string& name, const std::string& text) const {
+    test::writeText(folder_ / name, text);
+    return (folder_ / name).string();
+  }
+
+  /// The arm with a mesh for the upper link.
+  std::string armWith(const std::string& uri) const {
+    return kBase + "<link name='upper'><collision><origin xyz='0 0 0.25'/><geometry><mesh filename='" + uri +
+           "'/></geometry></collision></link>" + kFore + kJoints;
+  }
+
+  const test::TemporaryDirectory folder_;
+  static constexpr const char* kBar =
+      "OFF\n8 12 0\n"
+      "-.025 -.025 -.2\n.025 -.025 -.2\n.025 .025 -.2\n-.025 .025 -.2\n"
+      "-.025 -.025 .2\n.025 -.025 .2\n.025 .025 .2\n-.025 .025 .2\n"
+      "3 0 2 1\n3 0 3 2\n3 4 5 6\n3 4 6 7\n3 0 1 5\n3 0 5 4\n"
+      "3 1 2 6\n3 1 6 5\n3 2 3 7\n3 2 7 6\n3 3 0 4\n3 3 4 7\n";
+};
+
+TEST_F(RobotSceneFiles, MeshesAreBesideTheUrdfAndPairsInTheSrdf) {
+  std::filesystem::create_directory(folder_ / "meshes");
+  write("meshes/bar.off", kBar);
+  const std::string urdf = write("arm.urdf", armWith("meshes/bar.off"));
+  const std::string srdf = write("arm.srdf", R"(<robot name="arm">
+    <disable_collisions link1="base" link2="fore" reason="Never"/></robot>)");
+  WorldObject bar = kPost;
+  bar.name = "bar";
+  bar.shapes = {WorldShape{MeshObject{"meshes/bar.off", Vector3d::Ones()}, Isometry3d::Identity()}};
+  const RobotScene scene = RobotScene::load(urdf, srdf, {kPost, bar});
+  EXPECT_TRUE(scene.warnings().empty());
+  EXPECT_EQ(scene.robot().root(), "base");
+  EXPECT_EQ(
+      scene.pairs(),
+      (Names{
+          {"base", "post"}, {"base", "bar"}, {"upper", "post"}, {"upper", "bar"}, {"fore", "post"}, {"fore", "bar"}}));
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).find("fore", "bar")->verdict, Verdict::kContact);
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).find("upper", "post")->verdict, Verdict::kClear);
+  EXPECT_NE(scene.planText().find("SRDF: Never: base - fore"), std::string::npos) << scene.planText();
+  EXPECT_EQ(RobotScene::load(urdf).pairs().size(), 1U);
+
+  RobotSceneOptions options;
+  options.checked_pairs = {{"base", "fore"}};
+  options.allowed_pairs = {{"*", "post"}};
+  EXPECT_EQ(RobotScene::load(urdf, srdf, {kPost}, options).pairs(), (Names{{"base", "fore"}}));
+  options = {};
+  options.loader = [](const std::string& uri) { return Resource{kBar, uri, ""}; };
+  EXPECT_TRUE(RobotScene::parse(armWith("x://bar.off"), {}, {}, options).warnings().empty());
+}
+
+TEST_F(RobotSceneFiles, ABadMeshCostsItsLinkAlone) {
+  const RobotScene scene = RobotScene::load(write("arm.urdf", armWith("none.off")), {}, {kPost});
+  EXPECT_TRUE(hasLine(scene.warnings(), "not checked: link upper: none.off: no such file"));
+  const MotionResult clear = scene.check(swing(0.0, 0.1));
+  EXPECT_EQ(clear.verdict, Verdict::kNotChecked);
+  EXPECT_NE(clear.find("upper", "post")->reason.find("none.off"), std::string::npos);
+  EXPECT_EQ(clear.find("fore", "post")->verdict, Verdict::kClear);
+  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kContact);
+  const std::vector<BodyDistance> near = scene.distances({{"shoulder", 0.0}, {"elbow", 0.0}}, 0.01);
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].body_a, "upper");
+  EXPECT_NE(near[0].reason.find("none.off"), std::string::npos);
+}
+
+TEST_F(RobotSceneFiles, FilesThatCannotBeReadAreNamed) {
+  const std::string urdf = write("arm.urdf", kArm), none = (folder_ / "none").string();
+  const auto expectNamed = [](const std::string& urdf_file, const std::string& srdf_file, const std::string& name) {
+    const std::string message = messageOf<std::runtime_error>([&] { RobotScene::load(urdf_file, srdf_file); });
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+  };
+  expectNamed(none, {}, none);
+  expectNamed(urdf, none, none);
+  expectNamed(folder_.string(), {}, folder_.string());
+  expectNamed(write("empty.urdf", ""), {}, "empty.urdf");
+  expectNamed(write("bad.urdf", "<robot"), {}, "bad.urdf");
+  expectNamed(urdf, write("bad.srdf", "<robot name='arm'>"), "bad.srdf");
+  EXPECT_THROW(RobotScene::parse(""), std::runtime_error);
+  EXPECT_THROW(RobotScene::parse(kArm, "nothing"), std::runtime_error);
+}
+
+TEST(RobotScene, LinksThatOverlapAtRestAreSetAsideUnlessTheyAreWanted) {
+  std::string folded = kArm;  // the fore link reaches down to the base
+  folded.replace(folded.find("<origin xyz=\"0 0 0.2\"/>"), 23, "<origin xyz=\"0 0 -0.5\"/>");
+  const RobotScene usual = RobotScene::parse(folded, {}, {kPost});
+  EXPECT_TRUE(hasLine(usual.warnings(), "base - fore"));
+  EXPECT_EQ(usual.check(swing(0.0, 0.1)).find("base", "fore"), nullptr);
+  RobotScene changed = RobotScene::parse(folded);
+  changed.addObject(kPost);
+  EXPECT_EQ(changed.check(swing(0.0, 0.1)).find("base", "fore"), nullptr);
+  EXPECT_TRUE(hasLine(changed.warnings(), "base - fore"));
+  RobotSceneOptions options;
+  options.check_overlapping_pairs = true;
+  const RobotScene all = RobotScene::parse(folded, {}, {}, options);
+  EXPECT_EQ(all.check(swing(0.0, 0.1)).find("base", "fore")->verdict, Verdict::kContact);
+}
+
+TEST(RobotScene, IsTheLongForm) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  const MotionResult result = scene.check(swing(0.0, 1.5));
+
+  const RobotModel robot(kArm);
+  std::vector<std::string> warnings;
+  SceneDescription description = describeRobot(robot, {}, {}, {}, warnings);
+  BodyDescription post;
+  post.name = "post";
+  post.X_frame_B = kPost.X_frame_B;
+  post.geometry.push_back({Primitive(Sphere{kRadius}), Isometry3d::Identity(), "sphere"});
+  post.is_world = true;
+  description.bodies.push_back(post);
+  const MonitorOptions monitor;
+  BodyOptions options = optionsForContacts();
+  const double sampled = samplingTolerance(monitor.max_error, monitor.chords.tolerance);
+  setMotionErrors(sampled, monitor.chords.tolerance, options);
+  options.exact_depths = true;
+  const auto built =
+      std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
+  MotionSampling sampling;
+  sampling.tolerance = sampled;
+  CycleRequest request;
+  request.refine = Refinement::kDeepest;
+  const CycleResult longer = checkMotion(
+      built, monitor, planAlong(robot, completePlan(robot, swing(0.0, 1.5), {}, {}), bodiesOf(*built, robot), sampling),
+      request);
+
+  EXPECT_EQ(result.verdict, longer.verdict);
+  EXPECT_EQ(result.error_bound, longer.error_bound);
+  ASSERT_EQ(result.pairs.size(), longer.pairs.size());
+  for (const PairResult& pair : longer.pairs) {
+    const MotionPair* named = result.find(built->bodies[static_cast<std::size_t>(pair.body_a)].name,
+                                          built->bodies[static_cast<std::size_t>(pair.body_b)].name);
+    ASSERT_TRUE(named);
+    EXPECT_EQ(named->verdict, pair.verdict);
+    EXPECT_EQ(named->error_bound, pair.error.total());
+    ASSERT_EQ(named->contacts.size(), pair.intervals.size());
+    for (std::size_t i = 0; i < pair.intervals.size(); ++i) {
+      EXPECT_EQ(named->contacts[i].enter, pair.intervals[i].enter);
+      EXPECT_EQ(named->contacts[i].exit, pair.intervals[i].exit);
     }
-    EXPECT_EQ(distance < 0.0, truth(p) < 0.0);
-    if (truth(p) > 0.0) {
-      EXPECT_NEAR(distance, truth(p), 1e-12);
-    } else {
-      ++inside;
-    }
+    EXPECT_EQ(named->deepest.depth, pair.deepest.depth);
+    EXPECT_EQ(named->on_b_W.force, pair.on_b_W.force);
   }
-  EXPECT_GT(inside, 100);
-  ASSERT_EQ(described.scene.bodies[1].geometry.size(), 1u);
-  EXPECT_NE(described.scene.bodies[2].failure.find("1 of 1 collision elements cannot be read"), std::string::npos);
 }
 
-TEST(RobotScene, ElementsThatTheParserPassesOverCostTheirLinkAlone) {
-  const std::string cube = box("0.1 0.1 0.1"), sphere = "<sphere radius='1'/>";
-  const std::string visual =
-      "<visual><geometry>" + sphere + sphere + "</geometry></visual><contact><lateral/></contact>";
-  const std::vector<std::array<std::string, 3>> links = {
-      // name, what is inside, the failure
-      {"good",
-       "<inertial><origin xyz='0 0 0'/><mass value='1'/>"
-       "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>" +
-           visual + "<!-- <Box/> -->" + cube,
-       ""},
-      {"origin", "<origin xyz='0 0 1'/>" + cube, ""},
-      {"pose", "<pose>0 0 1 0 0 0</pose>" + cube, ""},
-      {"extended",
-       "<self_collision_checking><origin/><geometry><capsule/></geometry></self_collision_checking><sensor><contact>"
-       "<collision>c</collision></contact></sensor><gazebo><collision><geometry/></collision></"
-       "gazebo><extra><geometry><a/><b/></geometry></"
-       "extra>" +
-           cube,
-       ""},
-      {"painted", "<collision><geometry>" + sphere + "<material name='red'/></geometry></collision>", ""},
-      {"capsule", "<collision><geometry>" + sphere + "<capsule/></geometry></collision>",
-       "<capsule> in <geometry> is not read"},
-      {"two", "<collision><geometry>" + sphere + "\n<cylinder radius='1' length='1'/></geometry></collision>",
-       "line 3 of the URDF: <cylinder> in <geometry> is not read"},
-      {"twice", "<collision><geometry>" + sphere + "</geometry><geometry>" + sphere + "</geometry></collision>",
-       "<geometry> in <collision> is not read"},
-      {"case", cube + "<Collision><geometry>" + sphere + "</geometry></Collision>",
-       "<Collision> in <link> is not read"},
-      {"moved", "<collision><Origin xyz='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
-       "<Origin> in <collision> is not read"},
-      {"posed", "<collision><pose>1 0 0 0 0 0</pose><geometry>" + sphere + "</geometry></collision>",
-       "<pose> in <collision> is not read"},
-      {"rotated", "<collision><origin xyz='1 0 0' rotation='0 0 1.5'/><geometry>" + sphere + "</geometry></collision>",
-       "<origin> in <collision> is not read in full"},
-      {"shouted", "<collision><origin XYZ='1 0 0'/><geometry>" + sphere + "</geometry></collision>",
-       "<origin> in <collision> is not read in full"},
-      {"enlarged", "<collision><geometry><mesh filename='part.off' Scale='2 2 2'/></geometry></collision>",
-       "<mesh> in <geometry> is not read in full"},
-      {"annotated", "<collision><origin xyz='1 0 0' from='CAD 2'/><geometry>" + sphere + "</geometry></collision>", ""},
-      {"unmoved",
-       "<collision><pose>0 0 0 -0.0 0 0</pose><origin xyz='1 0 0' rotation='0 0 0'/><geometry>" + sphere +
-           "</geometry></collision>",
-       ""},
-      {"bare", "<geometry>" + sphere + "</geometry>", "<geometry> in <link> is not read"},
-      {"seen",
-       "<visual><geometry>" + sphere + "</geometry><collision><geometry>" + sphere + "</geometry></collision></visual>",
-       "<collision> in <visual> is not read"},
-      {"listed", "<collisions><collision><geometry>" + sphere + "</geometry></collision></collisions>",
-       "<collision> in <collisions> is not read"},
-      {"direct", "<collision>" + sphere + "<geometry>" + sphere + "</geometry></collision>",
-       "<sphere> in <collision> is not read"}};
-  std::string urdf = "<robot name='r'>\n";
-  for (const auto& [name, inside, failure] : links) {
-    urdf += link(name, inside);
-    if (name != "good") urdf += joint("good", name, "floating", "0 0 0");
-  }
-  const Described described = describe(urdf + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), links.size());
-  std::map<std::string, std::string> failures;
-  for (const BodyDescription& body : described.scene.bodies) failures[body.name] = body.failure;
-  for (const auto& [name, inside, failure] : links) {
-    EXPECT_EQ(failures[name].empty(), failure.empty()) << name;
-    EXPECT_TRUE(failures[name].find(failure) != std::string::npos) << name << ": " << failures[name];
-  }
-  EXPECT_TRUE(described.warnings.empty()) << described.warnings.front();
+TEST(RobotScene, WithoutMeasuredContactsVerdictsAndDistancesAreTheSame) {
+  RobotSceneOptions options;
+  options.measure_contacts = false;
+  const RobotScene without = RobotScene::parse(kArm, {}, {kPost}, options), with = RobotScene::parse(kArm, {}, {kPost});
+  const MotionResult result = without.check(swing(0.0, 1.5)), full = with.check(swing(0.0, 1.5));
+  EXPECT_EQ(result.verdict, Verdict::kContact);
+  EXPECT_NEAR(result.error_bound, full.error_bound, 1e-9);
+  const MotionPair &hit = *result.find("fore", "post"), &same = *full.find("fore", "post");
+  ASSERT_EQ(hit.contacts.size(), 1U);
+  EXPECT_GE(hit.contacts[0].enter, same.contacts[0].enter - 1e-3);
+  EXPECT_LE(hit.contacts[0].exit, same.contacts[0].exit + 1e-3);
+  EXPECT_NEAR(hit.deepest.depth, kRadius, hit.deepest.depth_error + 1e-9);
+  EXPECT_TRUE(same.on_b_W.force.allFinite());
+  EXPECT_GT(same.on_b_W.force.norm(), 0.0);
+  EXPECT_TRUE(std::isnan(hit.on_b_W.force.x()));
+  const JointPositions joints = {{"shoulder", kPostAngle - 0.3}, {"elbow", 0.0}};
+  EXPECT_EQ(without.distance(joints).distance, with.distance(joints).distance);
 }
 
-TEST(RobotScene, AVisualWithoutAShapeCostsNoCollisionShape) {
-  const std::string cube = box("0.1 0.1 0.1");
-  const Described described = describe(
-      "<robot name='r'>" + link("empty", "<visual/>" + cube) +
-      link("bare", cube + "<visual><origin xyz='0 0 1'/><geometry/></visual>") +
-      link("coloured", "<visual name='v'><material name='red'/></visual>" + cube) + link("alone", "<visual/>") +
-      link("short", "<visual/>" + box("1 1")) + link("hidden", "<visual>" + cube + "</visual>") +
-      joint("empty", "hidden", "floating", "0 0 0") + joint("empty", "bare", "floating", "0 0 0") +
-      joint("empty", "coloured", "floating", "0 0 0") + joint("empty", "alone", "floating", "0 0 0") +
-      joint("empty", "short", "floating", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 5u);
-  for (const BodyDescription& body : described.scene.bodies) {
-    if (body.name == "hidden") {
-      EXPECT_NE(body.failure.find("<collision> in <visual> is not read"), std::string::npos) << body.failure;
-    } else if (body.name == "short") {
-      EXPECT_NE(body.failure.find("1 of 1 collision elements cannot be read: "), std::string::npos) << body.failure;
-      EXPECT_EQ(body.failure.find("visual"), std::string::npos) << body.failure;
-    } else {
-      EXPECT_EQ(body.failure, "") << body.name;
-      EXPECT_EQ(body.geometry.size(), 1u) << body.name;
-    }
-  }
-  EXPECT_TRUE(described.scene.visual_only.empty());
-}
-
-TEST(RobotScene, LinksWhoseNamesAreNotTextLoseNoElementUnnoticed) {
-  const Described described =
-      describe("<robot name='r'>" + link("base", box("1 1 1")) + link("bras_\xe9", box("0.1 0.1 0.1") + box("1 1")) +
-               joint("base", "bras_\xe9", "floating", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 2u);
-  EXPECT_NE(described.scene.bodies[1].failure.find("1 of 2 collision elements cannot be read"), std::string::npos);
-}
-
-TEST(RobotScene, BadMeshCostsItsLinkAlone) {
-  const Described described = describe(
-      "<robot name='r'>" + link("good", mesh("good.off")) + link("forearm", mesh("good.off") + mesh("missing.stl")) +
-      link("hand", mesh("garbage.off")) + link("thumb", mesh("missing.stl")) + link("flat", mesh("good.off", "1 0 1")) +
-      link("sunk", box("1 -1 1")) + joint("good", "forearm", "continuous", "0 0 0") +
-      joint("forearm", "hand", "continuous", "0 0 0") + joint("hand", "thumb", "continuous", "0 0 0") +
-      joint("thumb", "flat", "continuous", "0 0 0") + joint("flat", "sunk", "continuous", "0 0 0") + "</robot>");
-  ASSERT_EQ(described.scene.bodies.size(), 6u);
-  EXPECT_EQ(described.scene.bodies[0].failure, "");
-  EXPECT_EQ(described.scene.bodies[1].failure, "link forearm: missing.stl: no such file");
-  EXPECT_TRUE(described.scene.bodies[1].geometry.empty());
-  EXPECT_EQ(described.scene.bodies[2].failure.find("link hand: "), 0u);
-  EXPECT_NE(described.scene.bodies[2].failure.find("garbage.off"), std::string::npos);
-  EXPECT_EQ(described.scene.bodies[3].failure, "link thumb: missing.stl: no such file");
-  EXPECT_EQ(described.scene.bodies[4].failure.find("link flat: good.off: "), 0u);
-  EXPECT_EQ(described.scene.bodies[5].failure.find("link sunk: "), 0u);
-  EXPECT_EQ(reasonFor(described.scene, "good", "hand"), "checked");  // the plan makes it NOT_CHECKED
-}
-
-TEST(RobotScene, WarningsArePassedOnOnce) {
-  const Described described =
-      describe("<robot name='r'>" + link("a", mesh("Good.OFF") + mesh("Good.OFF", "2 2 2")) + "</robot>");
-  ASSERT_EQ(described.warnings.size(), 1u);
-  EXPECT_NE(described.warnings[0].find("found good.off"), std::string::npos);
+TEST(RobotScene, AnswersSeveralThreads) {
+  const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
+  const JointPositions joints = {{"shoulder", kPostAngle - 0.3}, {"elbow", 0.0}};
+  const MotionResult alone = scene.check(swing(0.0, 1.5));
+  const BodyDistance nearest = scene.distance(joints);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 5; ++k) {
+        EXPECT_EQ(scene.check(swing(0.0, 1.5)).find("fore", "post")->contacts.at(0).enter,
+                  alone.find("fore", "post")->contacts.at(0).enter);
+        EXPECT_EQ(scene.distance(joints).distance, nearest.distance);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
 }
 
 }  // namespace sdf_ccd::robot_scene_test

@@ -6,7 +6,7 @@
 #include "oracle/random.h"
 #include "robot/trajectory_motion.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::two_arms_test {
 

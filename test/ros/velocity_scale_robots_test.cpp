@@ -12,7 +12,7 @@
 #include "ros/monitor/proximity_measure.h"
 #include "ros/tf_messages.h"
 #include "ros/world/describe_scene.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::velocity_scale_robots_test {
 

@@ -30,7 +30,7 @@ struct RobotTrajectory {
 /// Joint values of a trajectory message at one time; velocities and accelerations may be empty.
 struct JointWaypoint {
   double time = 0.0;  ///< [s]
-  std::vector<double> positions, velocities, accelerations;
+  std::vector<double> positions, velocities = {}, accelerations = {};
 };
 
 /// A trajectory as ros_control's joint_trajectory_controller follows it: on quintic splines between points that

@@ -94,7 +94,8 @@ std::vector<MotionVerdict> checkMotions(std::shared_ptr<const Scene> scene, cons
                                         const MotionsRequest& request = {});
 
 /// The bodies of a scene, each carried by the link whose frame it has: objects of the world by the robot's root, or by
-/// the link that they are attached to. Bodies in other frames are missing; their pairs are NOT_CHECKED.
+/// the link that they are attached to. Bodies whose frame has no name do not move in the world. Bodies in other frames
+/// are missing; their pairs are NOT_CHECKED.
 PlannedBodies bodiesOf(const Scene& scene, const RobotModel& robot);
 
 }  // namespace sdf_ccd

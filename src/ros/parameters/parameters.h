@@ -20,7 +20,7 @@
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "settings/setting.h"
 
 namespace sdf_ccd {
@@ -63,7 +63,7 @@ struct MonitorParameters {
   std::string urdf_file;    ///< absolute; meshes with relative names are beside it. Empty: in the working directory
   std::string fixed_frame;  ///< empty: the robot's root link
   std::string tf_prefix;
-  RobotSceneOptions robot;
+  RobotPairOptions robot;
   PairRules pairs;
   OverlapRule::Kind overlapping_pairs = OverlapRule::Kind::kNeighbours;
   enum class Wrenches { kAlways, kOnDemand, kNever };

@@ -3,27 +3,13 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
-#include <variant>
 #include <vector>
 
 #include "geometry/generated_mesh.h"
 #include "motion/valid_pose.h"
-#include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/robot/world_object.h"
 
 namespace sdf_ccd {
-
-struct MeshObject {
-  std::string uri;
-  Vector3d scale = Vector3d::Ones();
-};
-
-struct WorldShape {
-  using Shape = std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>>;
-  Shape shape;
-  Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
-};
 
 /// A cone with its tip along z.
 inline WorldShape::Shape coneShape(double radius, double height) {
@@ -57,13 +43,5 @@ inline std::optional<Primitive> solidBelow(const Vector3d& n, double d) {
 
 /// Most objects of a world; more are refused.
 constexpr std::size_t kMaxObjects = 5000;
-
-/// A static object of the world.
-struct WorldObject {
-  std::string name;
-  std::string frame;  ///< empty: the fixed frame
-  Isometry3d X_frame_B = Isometry3d::Identity();
-  std::vector<WorldShape> shapes;  ///< one or more
-};
 
 }  // namespace sdf_ccd

@@ -7,6 +7,7 @@
 #include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "model/name_pair.h"
+#include "robot/object_body.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/changing_scene_start_up.h"

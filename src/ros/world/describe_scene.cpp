@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/shown_text.h"
+#include "robot/object_body.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/world_bodies.h"
 #include "storage/regular_file.h"
@@ -81,8 +82,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   std::vector<PairRule> limited;
   for (const PairLimit& limit : parameters.proximity.pairs) limited.push_back(limit.bodies);
   warnOfUnknown("pairs", limited, described.scene, described.warnings);
-  described.overlap_rule = {parameters.overlapping_pairs, parameters.pairs.checked};
-  for (const auto& [a, b] : srdf.enabled) described.overlap_rule.kept.push_back({a, b});
+  described.overlap_rule = overlapRule(parameters.overlapping_pairs, srdf, parameters.pairs.checked);
   for (BodyDescription& body : described.scene.bodies) {
     if (!body.is_world || body.frame == robot->root()) body.frame = prefix + body.frame;
   }

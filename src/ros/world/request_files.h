@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 #include "storage/regular_file.h"
 
 namespace sdf_ccd {

@@ -1,48 +1,13 @@
 #include "ros/world/world_bodies.h"
 
-#include <array>
 #include <stdexcept>
 
 #include "model/pair_rules.h"
+#include "robot/object_body.h"
 #include "ros/parameters/moveit_scene.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd {
-namespace {
-
-BodyDescription emptyBody(const std::string& name, const std::string& frame, const Isometry3d& X_frame_B) {
-  BodyDescription body;
-  body.name = name;
-  body.frame = frame;
-  body.X_frame_B = X_frame_B;
-  body.is_world = true;
-  return body;
-}
-
-GeometryDescription toGeometry(const WorldShape& made, const ResourceLoader& loader,
-                               std::vector<std::string>& warnings) {
-  GeometryDescription geometry;
-  geometry.X_BG = made.X_BG;
-  if (const Primitive* primitive = std::get_if<Primitive>(&made.shape)) {
-    geometry.shape = *primitive;
-    geometry.source = std::array<const char*, 4>{"sphere", "box", "cylinder", "plane"}[primitive->index()];
-    return geometry;
-  }
-  if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&made.shape)) {
-    geometry.shape = *mesh;
-    geometry.source = "mesh";
-    return geometry;
-  }
-  const MeshObject& mesh = std::get<MeshObject>(made.shape);
-  const Resource resource = loader(mesh.uri);
-  if (!resource.warning.empty()) warnings.push_back(resource.warning);
-  geometry.shape = std::make_shared<const TriangleMesh>(scaled(parseMesh(resource.bytes, resource.name), mesh.scale));
-  geometry.source = mesh.uri;
-  return geometry;
-}
-
-}  // namespace
-
 std::string whyNoName(const std::string& name) {
   if (!isSavedName(name))
     return "object '" + name + "': a name must not be empty, begin or end with a blank, or contain control characters";
@@ -50,21 +15,9 @@ std::string whyNoName(const std::string& name) {
   return {};
 }
 
-BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,
-                       std::vector<std::string>& warnings) {
-  BodyDescription body = emptyBody(object.name, frame, object.X_frame_B);
-  try {
-    for (const WorldShape& shape : object.shapes) body.geometry.push_back(toGeometry(shape, loader, warnings));
-  } catch (const std::exception& error) {
-    body.geometry.clear();
-    body.failure = "object " + object.name + ": " + error.what();
-  }
-  return body;
-}
-
 BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame,
                        const ResourceLoader& loader) {
-  BodyDescription body = emptyBody(name, frame, octomap.X_frame_B);
+  BodyDescription body = emptyWorldBody(name, frame, octomap.X_frame_B);
   try {
     double resolution = 0.0;
     GeometryDescription geometry;
@@ -83,7 +36,8 @@ BodyDescription toBody(const std::string& name, const OctomapObject& octomap, co
 }
 
 BodyDescription awaitedTile(const std::string& frame, const std::string& why) {
-  BodyDescription body = emptyBody(std::string(LiveMapParameters::kName) + "/awaited", frame, Isometry3d::Identity());
+  BodyDescription body =
+      emptyWorldBody(std::string(LiveMapParameters::kName) + "/awaited", frame, Isometry3d::Identity());
   body.map = LiveMapParameters::kName;
   body.failure = why;
   GeometryDescription voxel;  // represents the voxels to come

@@ -11,12 +11,7 @@ namespace sdf_ccd {
 /// Why an object cannot have this name; empty if it can.
 std::string whyNoName(const std::string& name);
 
-/// Body of an object in a tf frame. If it cannot be made, BodyDescription::failure says why.
-/// @param warnings  receives other notes.
-BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,
-                       std::vector<std::string>& warnings);
-
-/// The same for an OctoMap file, with the given name.
+/// Body of an OctoMap file in a tf frame, with the given name. If it cannot be made, BodyDescription::failure says why.
 BodyDescription toBody(const std::string& name, const OctomapObject& octomap, const std::string& frame,
                        const ResourceLoader& loader);
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "robot/robot_files.h"
 #include "settings/yaml_settings.h"
-#include "tools/read_text.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -28,8 +28,8 @@ MonitorParameters readParameters(const MonitorConfig& config) {
   } catch (const std::exception& error) {
     throw std::runtime_error(prefix + error.what());
   }
-  parameters.urdf = readText(config.urdf);
-  if (!config.srdf.empty()) parameters.srdf = readText(config.srdf);
+  parameters.urdf = readTextFile(config.urdf);
+  if (!config.srdf.empty()) parameters.srdf = readTextFile(config.srdf);
   parameters.urdf_source = config.urdf;
   parameters.srdf_source = config.srdf;
   if (!parameters.unknown.empty()) {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace sdf_ccd {
 namespace {
 
 /// Adds the pairs of links that may touch. Of those that are rigidly joined only what the SRDF names.
-void allowPairs(const RobotModel& robot, const SrdfPairs& srdf, const RobotSceneOptions& options,
+void allowPairs(const RobotModel& robot, const SrdfPairs& srdf, const RobotPairOptions& options,
                 SceneDescription& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     checkCancelled();
@@ -52,7 +52,7 @@ void requireFewPairs(const RobotModel& robot, std::size_t links) {
 }  // namespace
 
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
-                               const RobotSceneOptions& options, std::vector<std::string>& warnings) {
+                               const RobotPairOptions& options, std::vector<std::string>& warnings) {
   SceneDescription scene;
   LinkGeometryLoader geometry(loader, warnings);
   for (const std::string& name : robot.links()) {

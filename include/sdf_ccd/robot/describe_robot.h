@@ -54,7 +54,7 @@ struct Srdf {
 Srdf parseSrdf(const std::string& xml, const std::string& source = {});
 
 /// Which pairs of links are checked.
-struct RobotSceneOptions {
+struct RobotPairOptions {
   bool check_adjacent = false;  ///< also check links that a movable joint connects
 };
 
@@ -70,7 +70,7 @@ struct RobotSceneOptions {
 /// repeated here.
 /// @throws std::length_error if the links are more than 300,000 pairs; Cancelled.
 SceneDescription describeRobot(const RobotModel& robot, const Srdf& srdf, const ResourceLoader& loader,
-                               const RobotSceneOptions& options, std::vector<std::string>& warnings);
+                               const RobotPairOptions& options, std::vector<std::string>& warnings);
 
 /// Sets BodyDescription::rigid_root of bodies in links' frames; of objects of the world only if the link is rigidly
 /// joined to the robot's root. Call it again after bodies were added to `scene`.

@@ -6,7 +6,7 @@
 
 #include "model/name_pair.h"
 #include "sdf_ccd/monitor/scene.h"
-#include "sdf_ccd/robot/robot_scene.h"
+#include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::test {
 
@@ -60,7 +60,7 @@ struct Described {
   std::vector<std::string> warnings;
 };
 
-inline Described describe(const std::string& urdf, const Srdf& srdf = {}, const RobotSceneOptions& options = {}) {
+inline Described describe(const std::string& urdf, const Srdf& srdf = {}, const RobotPairOptions& options = {}) {
   Described described;
   described.scene = describeRobot(RobotModel(urdf), srdf, loadOwn, options, described.warnings);
   return described;

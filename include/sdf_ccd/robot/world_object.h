@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
+
+namespace sdf_ccd {
+
+/// A mesh in a file.
+struct MeshObject {
+  std::string uri;                    ///< as loadLocalResource() reads it
+  Vector3d scale = Vector3d::Ones();  ///< along the file's axes; none of them 0
+};
+
+/// One shape of an object.
+struct WorldShape {
+  using Shape = std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>>;
+  Shape shape;
+  Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
+};
+
+/// An object that a robot may hit, or carries.
+struct WorldObject {
+  std::string name;
+  std::string frame;  ///< that carries it; empty: it does not move in the world
+  Isometry3d X_frame_B = Isometry3d::Identity();
+  std::vector<WorldShape> shapes;  ///< one or more
+};
+
+}  // namespace sdf_ccd
