@@ -73,7 +73,7 @@ struct MotionCheckOptions {
 struct MotionPair {
   std::string body_a, body_b;  ///< names of links or objects
   Verdict verdict = Verdict::kNotChecked;
-  std::string reason;        ///< why it is NOT_CHECKED; else empty
+  std::string reason;        ///< why it is NOT_CHECKED, or has no force (wrenches are NaN); else empty
   double error_bound = 0.0;  ///< of the verdict [m]
 
   Intervals contacts;  ///< during which they touch; increasing
@@ -222,7 +222,8 @@ class RobotScene {
   std::vector<MotionSummary> checkMotions(const std::vector<RobotTrajectory>& trajectories,
                                           const MotionCheckOptions& options = {}) const;
 
-  /// The smallest distance of all pairs, or the deepest contact. Joints may be beyond their limits.
+  /// The smallest distance of all pairs, or the deepest contact; an UNCERTAIN pair comes before one that is CLEAR and
+  /// nearer. Joints may be beyond their limits.
   ///
   /// If a pair is NOT_CHECKED and this one is CLEAR, the verdict is NOT_CHECKED with the other's reason: the distance
   /// holds for all pairs but those that distances() lists as such.

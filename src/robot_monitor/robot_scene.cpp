@@ -8,6 +8,7 @@
 #include "model/error_budget.h"
 #include "model/name_pair.h"
 #include "monitor/no_pairs.h"
+#include "motion/screw_motion.h"
 #include "motion/valid_pose.h"
 #include "robot/object_body.h"
 #include "robot/robot_files.h"
@@ -28,8 +29,8 @@ std::vector<PairRule> rulesOf(const std::vector<std::pair<std::string, std::stri
 }
 
 void requireObjectPose(const std::string& name, const Isometry3d& X_frame_B) {
-  if (!X_frame_B.matrix().allFinite() || !isNearOrigin(X_frame_B.translation()))
-    refuseObject(name, "its pose is not finite, or too far away");
+  requirePose(X_frame_B, "object " + name + ": its pose");
+  if (!isNearOrigin(X_frame_B.translation())) refuseObject(name, "its pose is too far away");
 }
 
 /// Failures of reading name the body, those of building do not.
@@ -71,12 +72,10 @@ void RobotScene::Impl::build(const std::vector<WorldObject>& first, const Srdf& 
   const std::size_t bodies_of_links = links.bodies.size(), allowed = description.allowed.size();
   const ScenePlan plan = planScene(description, planOptions(body_options));
   Scene built = buildScene(description, plan, body_options);
-  const std::size_t noted = built.warnings.size();
   const OverlapRule::Kind kind =
       options.check_overlapping_pairs ? OverlapRule::Kind::kCheck : OverlapRule::Kind::kNeighbours;
   applyOverlapRule(robot, overlapRule(kind, srdf, rules.checked), built);
-  link_warnings.insert(link_warnings.end(), built.warnings.begin() + static_cast<std::ptrdiff_t>(noted),
-                       built.warnings.end());
+  link_warnings.insert(link_warnings.end(), built.overlap_notes.begin(), built.overlap_notes.end());
   editor = std::make_unique<WorldEditor>(body_options);
   std::shared_ptr<const WorldSnapshot> version = editor->begin(std::move(description), plan, std::move(built));
   // Later versions leave out what building has left out.

@@ -44,7 +44,7 @@ MotionPair byName(const PairResult& pair, const Scene& scene, double start) {
   named.body_a = scene.bodies[static_cast<std::size_t>(pair.body_a)].name;
   named.body_b = scene.bodies[static_cast<std::size_t>(pair.body_b)].name;
   named.verdict = pair.verdict;
-  if (pair.verdict == Verdict::kNotChecked) named.reason = pair.reason;
+  named.reason = pair.reason;
   named.error_bound = pair.error.total();
   for (const Interval& interval : pair.intervals)
     named.contacts.push_back({start + interval.enter, start + interval.exit});

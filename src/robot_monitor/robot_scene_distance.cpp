@@ -22,6 +22,10 @@ bool isNearer(const BodyDistance& a, const BodyDistance& b) {
   return std::pair(a.distance, -a.depth) < std::pair(b.distance, -b.depth);
 }
 
+bool isUncertain(const PairResult& pair) {
+  return pair.verdict == Verdict::kUncertain;
+}
+
 }  // namespace
 
 /// The scene's bodies at rest in one state.
@@ -44,11 +48,14 @@ class RobotScene::Impl::StateDistances {
 
   const CycleResult& result() const { return *result_; }
 
-  /// All pairs that may be within the range.
+  /// All pairs that may be within the range. What may be inside another body's opening is uncertain however far apart
+  /// the surfaces are.
   std::vector<BodyDistance> within(double range) {
+    const bool all = std::any_of(result_->pairs.begin(), result_->pairs.end(), isUncertain);
     std::vector<BodyDistance> found;
-    for (const PairDistance& pair : distances_.update(motion_, *result_, std::min(range, kLargestRange), {}))
-      found.push_back(measured(pair));
+    for (const PairDistance& pair :
+         distances_.update(motion_, *result_, all ? kLargestRange : std::min(range, kLargestRange), {}))
+      if (pair.distance - pair.error <= range) found.push_back(measured(pair));
     return found;
   }
 
@@ -58,7 +65,7 @@ class RobotScene::Impl::StateDistances {
     return unknown;
   }
 
-  /// The nearest pair, or the deepest contact; without names if no pair is checked.
+  /// The nearest pair of those with the worst verdict, or the deepest contact; without names if no pair is checked.
   BodyDistance nearest() {
     const double clearance = smallestClearance();
     if (clearance == kInfinity) return {};
@@ -67,7 +74,9 @@ class RobotScene::Impl::StateDistances {
       near = within(range);
       if (range > kLargestRange) break;
     }
-    const auto first = std::min_element(near.begin(), near.end(), isNearer);
+    const auto first = std::min_element(near.begin(), near.end(), [](const BodyDistance& a, const BodyDistance& b) {
+      return a.verdict == b.verdict ? isNearer(a, b) : isWorse(a.verdict, b.verdict);
+    });
     return first == near.end() ? BodyDistance() : *first;
   }
 

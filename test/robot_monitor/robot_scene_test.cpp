@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -11,70 +10,12 @@
 #include "body/body_options.h"
 #include "model/error_budget.h"
 #include "oracle/files.h"
+#include "robot_monitor/robot_scene_case.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd::robot_scene_test {
 
-using Names = std::vector<std::pair<std::string, std::string>>;
-
-/// Two links in a row that rotate about y: along the arm, the upper one is from 0.05 to 0.45 m from the shoulder, which
-/// is in the world's origin, and the fore one from 0.52 to 0.88 m, 4 cm wide.
-const std::string kBase = R"(<robot name="arm">
-  <link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision></link>)";
-const std::string kUpper = R"(
-  <link name="upper"><collision><origin xyz="0 0 0.25"/><geometry><box size="0.05 0.05 0.4"/></geometry></collision>
-  </link>)";
-const std::string kFore = R"(
-  <link name="fore"><collision><origin xyz="0 0 0.2"/><geometry><box size="0.04 0.04 0.36"/></geometry></collision>
-  </link>)";
-const std::string kJoints = R"(
-  <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
-    <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-  <joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="0 0 0.5"/>
-    <axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
-</robot>)";
-const std::string kArm = kBase + kUpper + kFore + kJoints;
-
-constexpr double kPostAngle = 0.75, kPostAt = 0.7, kRadius = 0.03;       // a ball that the fore link passes through
-constexpr double kHalfWidth = 0.02;                                      // of the fore link
-const double kTouchAngle = std::asin((kHalfWidth + kRadius) / kPostAt);  // between arm and ball when they touch
-
-Vector3d along(double angle, double distance) {
-  return distance * Vector3d(std::sin(angle), 0.0, std::cos(angle));
-}
-
-WorldObject ball(const std::string& name, const Vector3d& center, double radius, const std::string& frame = {}) {
-  return {name, frame, Isometry3d(Eigen::Translation3d(center)), {{Sphere{radius}}}};
-}
-
-const WorldObject kPost = ball("post", along(kPostAngle, kPostAt), kRadius);
-
-/// At constant speed; the elbow stays straight.
-RobotTrajectory swing(double from, double to, double start = 0.0, double end = 1.0) {
-  RobotTrajectory trajectory;
-  trajectory.times = {start, end};
-  trajectory.states.resize(2);
-  trajectory.states[0].positions = {{"shoulder", from}, {"elbow", 0.0}};
-  trajectory.states[1].positions = {{"shoulder", to}, {"elbow", 0.0}};
-  return trajectory;
-}
-
-bool hasLine(const std::vector<std::string>& lines, const std::string& part) {
-  for (const std::string& line : lines)
-    if (line.find(part) != std::string::npos) return true;
-  return false;
-}
-
-/// The message of the exception that a call throws; empty if it throws none of this type.
-template <class Error>
-std::string messageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
+using namespace test;
 
 TEST(RobotScene, FindsTheContactByNameTimeAndDepth) {
   const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
@@ -212,21 +153,6 @@ TEST(RobotScene, JointsThatAreNotNamedAreWhereTheyAreSaidToBe) {
   EXPECT_NE(nearest.verdict, Verdict::kNotChecked);
 }
 
-TEST(RobotScene, TheRobotMovesAmongObjectsOfTheWorld) {
-  const WorldObject wall = {"wall", {}, Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0)), {{Box{{0.05, 0.1, 0.02}}}}};
-  const RobotScene scene = RobotScene::parse(kArm, {}, {wall});
-  RobotTrajectory drive = swing(0.0, 0.0);
-  drive.states[1].X_WR.translation().x() = 1.0;
-  const MotionResult result = scene.check(drive);
-  ASSERT_EQ(result.verdict, Verdict::kContact);
-  ASSERT_EQ(result.find("base", "wall")->contacts.size(), 1U);
-  EXPECT_NEAR(result.find("base", "wall")->contacts[0].enter, 0.65, 5e-3);
-  RobotState there = drive.states[1];
-  there.X_WR.translation().x() = 0.5;
-  EXPECT_NEAR(scene.distance(there).distance, 0.15, 1e-6);
-  EXPECT_NEAR(scene.distances(there, 0.2).at(0).distance, 0.15, 1e-6);
-}
-
 TEST(RobotScene, ChecksManyMotions) {
   const RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
   std::vector<RobotTrajectory> motions;
@@ -258,59 +184,6 @@ TEST(RobotScene, ChecksManyMotions) {
   EXPECT_EQ(message.rfind("motion 7: ", 0), 0U) << message;
   EXPECT_NE(message.find("wrist"), std::string::npos) << message;
   EXPECT_TRUE(scene.checkMotions({}).empty());
-}
-
-TEST(RobotScene, ObjectsComeMoveAndGo) {
-  RobotScene scene = RobotScene::parse(kArm);
-  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kClear);
-  scene.addObject(kPost);
-  EXPECT_EQ(scene.objects(), std::vector<std::string>{"post"});
-  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kContact);
-  scene.moveObject("post", Isometry3d(Eigen::Translation3d(along(kPostAngle, 1.2))));
-  EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kClear);
-  EXPECT_NEAR(scene.distance({{"shoulder", kPostAngle}, {"elbow", 0.0}}).distance, 1.2 - 0.88 - kRadius, 1e-4);
-
-  // A ball in the hand, which reaches the post: its centre is 1.2 m from the shoulder as well.
-  const WorldObject held = ball("held", Vector3d(0.0, 0.0, 0.7), 0.05, "fore");
-  scene.addObject(held);
-  const MotionResult carried = scene.check(swing(0.0, 1.5));
-  EXPECT_EQ(carried.verdict, Verdict::kContact);
-  EXPECT_EQ(carried.find("held", "fore"), nullptr);  // it carries it
-  ASSERT_EQ(carried.find("held", "post")->contacts.size(), 1U);
-  EXPECT_NEAR(carried.find("held", "post")->contacts[0].enter,
-              (kPostAngle - 2.0 * std::asin(0.5 * (0.05 + kRadius) / 1.2)) / 1.5, 5e-3);
-  scene.addObject(held, {"po*"});
-  EXPECT_EQ(scene.check(swing(0.0, 1.5)).find("held", "post"), nullptr);
-  EXPECT_EQ(scene.objects(), (std::vector<std::string>{"post", "held"}));
-  scene.removeObject("held");
-  scene.removeObject("post");
-  EXPECT_TRUE(scene.objects().empty());
-  EXPECT_EQ(scene.pairs(), (Names{{"base", "fore"}}));
-}
-
-TEST(RobotScene, BadObjectsAreRefusedAndNothingChanges) {
-  RobotScene scene = RobotScene::parse(kArm, {}, {kPost});
-  const auto expectRefused = [&](const WorldObject& object, const std::string& part) {
-    const std::string message = messageOf<std::invalid_argument>([&] { scene.addObject(object); });
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-    EXPECT_EQ(scene.objects(), std::vector<std::string>{"post"});
-    EXPECT_EQ(scene.check(swing(0.0, 1.5)).verdict, Verdict::kContact);
-  };
-  expectRefused(ball("", Vector3d::Zero(), 0.1), "must not be empty");
-  expectRefused(ball("p*", Vector3d::Zero(), 0.1), "wildcards");
-  expectRefused(ball("fore", Vector3d::Zero(), 0.1), "link of this name");
-  expectRefused(ball("tool", Vector3d::Zero(), 0.1, "hand"), "no link \"hand\"");
-  expectRefused({"tool", {}, Isometry3d::Identity(), {}}, "no shape");
-  expectRefused(ball("tool", Vector3d(std::nan(""), 0.0, 0.0), 0.1), "pose");
-  expectRefused(ball("post", Vector3d::Zero(), -0.1), "-0.1");
-  expectRefused({"post", {}, Isometry3d::Identity(), {{MeshObject{"none.stl", Vector3d::Ones()}}}}, "none.stl");
-  EXPECT_THROW(scene.moveObject("tool", Isometry3d::Identity()), std::invalid_argument);
-  EXPECT_THROW(scene.removeObject("tool"), std::invalid_argument);
-  EXPECT_THROW(RobotScene::parse(kArm, {}, {kPost, kPost}), std::invalid_argument);
-  EXPECT_THROW(RobotScene::parse(kArm, {}, {ball("tool", Vector3d::Zero(), 0.1, "hand")}), std::invalid_argument);
-  const RobotScene bad = RobotScene::parse(kArm, {}, {ball("post", Vector3d::Zero(), -0.1)});
-  EXPECT_EQ(bad.check(swing(0.0, 1.5)).verdict, Verdict::kNotChecked);
-  EXPECT_TRUE(hasLine(bad.warnings(), "post"));
 }
 
 TEST(RobotScene, BadMotionsAreRefused) {

@@ -17,9 +17,15 @@ struct MeshObject {
   Vector3d scale = Vector3d::Ones();  ///< along the file's axes; none of them 0
 };
 
+/// The occupied voxels of an OctoMap in a file, as parseOctomapSurface() reads it; the only shape of its object.
+struct OctomapObject {
+  std::string uri;         ///< as loadLocalResource() reads it
+  double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
+};
+
 /// One shape of an object.
 struct WorldShape {
-  using Shape = std::variant<Primitive, MeshObject, std::shared_ptr<const TriangleMesh>>;
+  using Shape = std::variant<Primitive, MeshObject, OctomapObject, std::shared_ptr<const TriangleMesh>>;
   Shape shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
 };

@@ -151,19 +151,19 @@ RequestPermissions readRequests(SettingsReader reader) {
   return requests;
 }
 
-OctomapObject readOctomap(SettingsReader reader, LiveMapParameters& live) {
-  OctomapObject octomap;
+std::optional<WorldObject> readOctomap(SettingsReader reader, LiveMapParameters& live) {
   live.topic = reader.name("topic", "");
   live.unknown = reader.choice("unknown", {"free", "occupied", "occupied_near"}, live.unknown);
   live.unknown_distance = reader.notNegative("unknown_distance", live.unknown_distance);
   live.padding = reader.notNegative("padding", live.padding);
   live.max_age = reader.notNegative("max_age", live.max_age);
-  octomap.file = reader.text("file", "");
-  octomap.frame = reader.name("frame", "");
-  octomap.X_frame_B = readPose(reader);
-  octomap.cell_size = reader.notNegative("cell_size", 0.0);
+  OctomapObject map{reader.text("file", "")};
+  WorldObject object{"octomap", reader.name("frame", ""), readPose(reader), {}};
+  map.cell_size = reader.notNegative("cell_size", map.cell_size);
   reader.finish();
-  return octomap;
+  if (map.uri.empty()) return std::nullopt;
+  object.shapes.push_back({map});
+  return object;
 }
 
 std::string defaultCacheDirectory() {

@@ -25,14 +25,6 @@
 
 namespace sdf_ccd {
 
-/// The world as an OctoMap file, from the parameters `octomap/…`.
-struct OctomapObject {
-  std::string file;   ///< empty: none
-  std::string frame;  ///< empty: the fixed frame
-  Isometry3d X_frame_B = Isometry3d::Identity();
-  double cell_size = 0.0;  ///< of its field [m]; 0: half a voxel
-};
-
 /// Distances to watch, which can change while the monitor runs.
 struct ProximityParameters {
   double report_distance = 0.0;  ///< pairs nearer than this are listed [m]; 0: none
@@ -73,7 +65,7 @@ struct MonitorParameters {
   std::vector<std::string> resource_roots;  ///< folders whose files requests may name
   double request_time = 10.0;               ///< longest time until the answer to a request [s]
   RequestPermissions requests;
-  OctomapObject octomap;
+  std::optional<WorldObject> octomap;  ///< from a file; an empty frame: the fixed frame
   LiveMapParameters live_map;
   BodyOptions scene;
   MonitorOptions monitor;

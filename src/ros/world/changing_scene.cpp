@@ -157,21 +157,17 @@ std::string ChangingScene::frameOf(const SceneChange& change, const std::string&
 BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& sources) const {
   const std::string frame = frameOf(change, start_up_->fixed_frame);
   const Isometry3d X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
-  BodyDescription body;
   WorldObject object{change.object, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
-  if (!change.octomap_file.empty()) {
-    if (!object.shapes.empty())
-      refuse("an object with octomap_file cannot have other shapes: add those as another object");
-    OctomapObject octomap;
-    octomap.file = change.octomap_file;
-    octomap.X_frame_B = X_frame_B;
-    body = toBody(change.object, octomap, frame, [&](const std::string& file) { return sources.files.read(file); });
-  } else {
-    if (object.shapes.empty()) refuse("object " + change.object + " has no shape");
-    const ResourceLoader loader = [&](const std::string& uri) { return sources.files.resource(uri); };
-    body = toBody(object, frame, loader, sources.warnings);
-    countTriangles(body, sources.triangles);
-  }
+  const bool is_map = !change.octomap_file.empty();
+  if (is_map && !object.shapes.empty())
+    refuse("an object with octomap_file cannot have other shapes: add those as another object");
+  if (is_map) object.shapes.push_back({OctomapObject{change.octomap_file}});
+  if (object.shapes.empty()) refuse("object " + change.object + " has no shape");
+  const ResourceLoader loader = [&](const std::string& name) {
+    return is_map ? sources.files.read(name) : sources.files.resource(name);
+  };
+  const BodyDescription body = toBody(object, frame, loader, sources.warnings);
+  if (!is_map) countTriangles(body, sources.triangles);
   if (!body.failure.empty()) refuse(body.failure);
   return body;
 }

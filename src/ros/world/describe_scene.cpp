@@ -60,11 +60,10 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     if (const std::string why = whyNoName(object.name); !why.empty()) throw std::invalid_argument(why);
     described.scene.bodies.push_back(toBody(object, frameOf(object.frame), loader, described.warnings));
   }
-  if (!parameters.octomap.file.empty()) {
+  if (parameters.octomap) {
+    const auto read = [](const std::string& file) { return Resource{readNamedFile(file), file, ""}; };
     described.scene.bodies.push_back(
-        toBody("octomap", parameters.octomap, frameOf(parameters.octomap.frame), [](const std::string& file) {
-          return Resource{readNamedFile(file), file, ""};
-        }));
+        toBody(*parameters.octomap, frameOf(parameters.octomap->frame), read, described.warnings));
   }
   for (const std::string& root : parameters.resource_roots) {
     std::error_code error;
