@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ros/tf/seconds_between.h"
 #include "ros/tf/tf_history.h"
 
 namespace sdf_ccd {
@@ -18,7 +19,6 @@ std::vector<std::string> framesOf(const JointTorques& torques, const std::vector
 }  // namespace
 
 TorqueOutput::TorqueOutput(const DescribedScene& described)
-
     : torques_(*described.robot), frames_(described.frames().all()), chains_(framesOf(torques_, frames_)) {
   X_WL_.assign(frames_.size(), Isometry3d::Identity());
   wrenches_.resize(frames_.size());
@@ -45,22 +45,29 @@ boost::shared_ptr<sensor_msgs::JointState> TorqueOutput::toMessage(MonitorLoop& 
   return message;
 }
 
-/// Finds the poses of the links that the torques need, in memory that is reused.
-void TorqueOutput::findLinks(const TfHistory& history, const ros::Time& time) {
+/// Finds the poses of the links that the torques need, in memory that is reused. A link whose transforms are late is
+/// taken where it was when its pairs were last checked.
+void TorqueOutput::findLinks(const TfHistory& history, const TrackedCycle& cycle) {
+  history.spans(chains_, spans_);
+  parts_.clear();
+  for (const TfSpan& span : spans_) {
+    const bool is_late = span.problem.empty() && !span.is_static && span.last < cycle.end;
+    const ros::Time& time = is_late ? span.last : cycle.end;
+    parts_.push_back({time, time});
+  }
+  history.copy(chains_, parts_, cycle.origin, window_);
   std::fill(is_known_.begin(), is_known_.end(), 0);
-  parts_.assign(torques_.links().size(), {time, time});
-  history.copy(chains_, parts_, time, window_);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const int link = torques_.links()[i];
-    is_known_[link] = window_.problem(i).empty();
-    if (is_known_[link]) X_WL_[link] = window_.pose(i, 0.0);
+    is_known_[link] = window_.problem(i).empty() && parts_[i].until >= cycle.origin;
+    if (is_known_[link]) X_WL_[link] = window_.pose(i, secondsBetween(cycle.origin, parts_[i].until));
   }
 }
 
 void TorqueOutput::set(MonitorLoop& loop, sensor_msgs::JointState& message) {
   const TrackedCycle& cycle = loop.cycle();
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench());
-  findLinks(loop.history(), cycle.end);
+  findLinks(loop.history(), cycle);
   const auto add = [&](int body, const Wrench& wrench) {
     const int link = link_of_body_[body];
     if (link < 0 || wrench.force.isZero(0.0)) return;

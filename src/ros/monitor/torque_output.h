@@ -19,7 +19,8 @@ namespace sdf_ccd {
 ///
 /// Publishes, below the node's name:
 ///   joint_torques  sensor_msgs/JointState  every cycle: effort is the generalised force of all contacts, averaged over
-///                                          the time checked [N·m, N]; NaN where tf does not have the joint
+///                                          the time checked [N·m, N]; NaN where tf has no transform of the
+///                                          joint in the cycle
 class TorqueOutput {
  public:
   explicit TorqueOutput(const DescribedScene& described);
@@ -41,7 +42,7 @@ class TorqueOutput {
   void publish(const boost::shared_ptr<sensor_msgs::JointState>& message) { publisher_.publish(message); }
 
  private:
-  void findLinks(const TfHistory& history, const ros::Time& time);
+  void findLinks(const TfHistory& history, const TrackedCycle& cycle);
 
   JointTorques torques_;
   std::vector<std::string> frames_;  // per link
@@ -51,6 +52,7 @@ class TorqueOutput {
 
   // Of the links that the torques need.
   TfChains chains_;
+  std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
   TfWindow window_;
 
