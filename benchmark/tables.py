@@ -19,6 +19,7 @@ import monitor_tables
 import planning_tables
 import precision_tables
 import robots_tables
+import scenes_tables
 import separation_tables
 import tunnelling_tables
 import world_tables
@@ -183,7 +184,7 @@ TABLES = {'paper_segments': paper_segments, 'against_embree': against_embree,
              {**dynamics_tables.TABLES, **precision_tables.TABLES, **robots_tables.TABLES,
               **map_tables.TABLES, **meshes_tables.TABLES, **monitor_tables.TABLES,
               **planning_tables.TABLES, **anytime_tables.TABLES, **separation_tables.TABLES, **contact_tables.TABLES,
-              **tunnelling_tables.TABLES, **world_tables.TABLES}.items()}}
+              **scenes_tables.TABLES, **tunnelling_tables.TABLES, **world_tables.TABLES}.items()}}
 
 
 def main():
