@@ -53,7 +53,8 @@ class Decider {
     made.depth = observed.rest_depth;
     const bool is_always = observed.together() == Together::kAlways && observed.tested == 1 + kStates;
     made.kind = observed.at_rest == Nearness::kOverlap ? (is_always ? PairKind::kAlways : PairKind::kAtRest)
-                                                       : (is_always ? PairKind::kHeld : PairKind::kMayAtRest);
+                : observed.at_rest == Nearness::kHeld  ? (is_always ? PairKind::kHeld : PairKind::kHeldAtRest)
+                                                       : PairKind::kMayAtRest;
     if (!mayBeSetAside(pair) || matchesAny(rule_.kept, made.body_a, made.body_b)) return made;
     if (rule_.kind == Kind::kRest && observed.mayOverlapAtRest()) {
       made.text = "overlap at rest, or may";
@@ -114,7 +115,7 @@ std::string srdfLines(const Pairs& pairs, const OverlapRule& rule) {
 /// How two links are at rest: " (30 mm)", " (within 1 mm)", " (may overlap)"; empty for a depth that is not known.
 std::string restText(const PairDecision& pair) {
   if (pair.depth > 0.0) return " (" + lengthText(pair.depth) + ")";
-  if (pair.kind == PairKind::kHeld) return " (within 1 mm)";
+  if (pair.kind == PairKind::kHeld || pair.kind == PairKind::kHeldAtRest) return " (within 1 mm)";
   return pair.kind == PairKind::kMayAtRest ? " (may overlap)" : "";
 }
 

@@ -307,6 +307,22 @@ TEST(OverlappingPairs, AdjacentOnesThatAreCheckedStay) {
   EXPECT_FALSE(cart.has("base wheel"));
 }
 
+/// Tested at rest alone, a carriage on its rail is not known to overlap it, nor to stay with it.
+TEST(OverlappingPairs, NeighboursThatTouchAtRestAreToldAsSuch) {
+  const RobotModel robot("<robot name='slide'>" + box("rail", "6 0.1 0.1") + "<link name='motor'/>" +
+                         joint("rail", "motor", "fixed", "0 0 0") + box("car", "0.2 0.1 0.1", "0 0 0.1") +
+                         joint("motor", "car", "prismatic", "0 0 0", "1 0 0") + "</robot>");
+  std::vector<std::string> warnings;
+  const SceneDescription description = describeRobot(robot, {}, noResource, {}, warnings);
+  Scene scene = buildScene(description, planScene(description), coarse());
+  const std::vector<PairDecision> found = applyOverlapRule(robot, {OverlapRule::Kind::kRest, {}}, scene);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, PairKind::kHeldAtRest);
+  const std::string told = scene.overlap_notes.at(0);
+  EXPECT_NE(told.find("rail - car (within 1 mm)"), std::string::npos) << told;
+  EXPECT_NE(told.find("reason=\"Default\""), std::string::npos) << told;
+}
+
 /// A carriage 0.5 mm above its rail, with a link without a shape between: what it does to the rail's stop must be
 /// checked.
 TEST(OverlappingPairs, NeighboursThatTouchAndHitAStopStay) {

@@ -79,14 +79,15 @@ enum class PairKind {
   kTouchLinks,  ///< attached, and allowed by its touch_links
   kUser,        ///< the parameter allowed_pairs, or a caller of the library
   kSrdf,
-  kRigid,     ///< rigidly joined, or in the same frame
-  kAdjacent,  ///< joined by one movable joint
-  kEmpty,     ///< one of them has no geometry
-  kNever,     ///< learned: they are apart in all states
-  kAlways,    ///< they overlap at rest, and overlap, or as neighbours touch, in all other states
-  kHeld,      ///< the same, but at rest they touch as neighbours
-  kAtRest,    ///< they overlap at rest
-  kMayAtRest  ///< they may overlap at rest
+  kRigid,       ///< rigidly joined, or in the same frame
+  kAdjacent,    ///< joined by one movable joint
+  kEmpty,       ///< one of them has no geometry
+  kNever,       ///< learned: they are apart in all states
+  kAlways,      ///< they overlap at rest, and overlap, or as neighbours touch, in all other states
+  kHeld,        ///< the same, but at rest they touch as neighbours
+  kAtRest,      ///< they overlap at rest
+  kHeldAtRest,  ///< at rest they touch as neighbours
+  kMayAtRest    ///< they may overlap at rest
 };
 
 /// How two bodies are that do not move relative to each other.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <set>
-
 #include "ros/world/changing_scene.h"
 
 namespace sdf_ccd {
