@@ -23,8 +23,8 @@ bool Monitor::Impl::isMotionKnown(const CycleMotion& motion, const DuePair& due)
   return !pair.span.empty() && isKnown(pair.body_a) && isKnown(pair.body_b);
 }
 
-/// Sets the queue of due pairs, those that have waited longest first. Pairs whose motion is not known need no time: they
-/// come last, and have waited as long as before when it is known again. @return the number of the others.
+/// Sets the queue of due pairs, those that have waited longest first. Pairs whose motion is not known need no time:
+/// they come last, and have waited as long as before when it is known again. @return the number of the others.
 std::size_t Monitor::Impl::orderQueue(const CycleMotion& motion) {
   queue = schedule->due();
   const auto unknown =
@@ -52,12 +52,11 @@ void Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, cons
       checkCancelled();
     }
   }
-  if (!is_decided)
-    checkers[i].postpone(motion, *bodies, schedule->leftClearance(due), request.margin, pair_memory, result.pairs[i]);
+  if (!is_decided) checkers[i].postpone(motion, *bodies, due.left, request.margin, pair_memory, result.pairs[i]);
 }
 
-/// All threads take pairs from one queue, so that the most urgent ones are done first: verdicts, then what is missing of
-/// contacts. The first pair has some time in any case, so that each is tested some time.
+/// All threads take pairs from one queue, so that the most urgent ones are done first: verdicts, then what is missing
+/// of contacts. The first pair has some time in any case, so that each is tested some time.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
   constexpr auto kSomeTime = std::chrono::microseconds(300);
   const std::size_t known = orderQueue(motion);

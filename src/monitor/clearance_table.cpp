@@ -16,9 +16,9 @@ namespace {
 
 using namespace lanes;
 
-constexpr float kNoPair = 1e30F;  // a budget that is never used up, for lanes without a pair
+constexpr float kNoPair = 1e30F;  // a clearance that is never used up, for lanes without a pair
 constexpr float kUpwards = 1.0F + 0x1p-20F;
-constexpr float kSoon = 2.0F, kNever = 0.0F, kPaused = -1.0F;
+constexpr float kSoon = 2.0F, kPaused = -1.0F;
 constexpr float kUnit = 0x1p-23F;  // twice the relative rounding error
 
 using Vector = LaneVector<Floats>;
@@ -162,7 +162,7 @@ struct ScanArrays {
   const TwistGroup* groups;
   PairBlock* blocks;
   std::size_t count;
-  float* budget;
+  float* clearance;
   float* spent;
   float* slack;
   const float* error;
@@ -170,18 +170,18 @@ struct ScanArrays {
   float margin;
 };
 
-/// Budgets after a displacement. Each of the two subtractions has an error of at most half of kUnit times the budget,
-/// or where more is used up than that, times what is used up, of which kUpwards adds more to the displacement; there is
-/// none without motion.
+/// Clearances after a displacement. Each of the two subtractions has an error of at most half of kUnit times the
+/// clearance, or where more is used up than that, times what is used up, of which kUpwards adds more to the
+/// displacement; there is none without motion.
 template <class Numbers>
-SDF_CCD_INLINE Numbers budgetAfter(const Numbers& budget, const Numbers& travel) {
+SDF_CCD_INLINE Numbers clearanceAfter(const Numbers& clearance, const Numbers& travel) {
   const Numbers none{};
-  const Numbers size = budget < none ? -budget : budget;
-  return (budget - travel) - (travel > none ? size * kUnit : none);
+  const Numbers size = clearance < none ? -clearance : clearance;
+  return (clearance - travel) - (travel > none ? size * kUnit : none);
 }
 
-/// Sets `slack` to what remains after the error, and `budget` for the pairs that are not due. @return the largest error
-/// and its slot, and the slot of the pair that will be due soon.
+/// Sets `slack` to what remains after the error, and `clearance` for the pairs that are not due. @return the largest
+/// error and its slot, and the slot of the pair that will be due soon.
 SDF_CCD_LANES
 SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blocks, std::size_t* due_count) {
   Largest error_bound(-1.0F), overdue(0.0F);
@@ -198,7 +198,7 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
       const BesideResting one(s.rows + block.rows_a);
       const float travel = one.travelBeside(group), error = one.poseErrorBeside(group);
       const float path = travel > 0.0F ? (block.path + travel) * kUpwards : block.path;
-      if (budgetAfter(block.least, path) > error + s.margin + kSoon * travel) {  // false for NaN
+      if (clearanceAfter(block.least, path) > error + s.margin + kSoon * travel) {  // false for NaN
         block.path = path;
         if (block.error + error > waiting.error) waiting = {block.error + error, block.worst, -1};
         continue;
@@ -208,16 +208,16 @@ SkippedPairs scanPairs(const ScanArrays& s, bool add_spent, std::size_t* due_blo
     loaded = block.rows_a;
     const BodiesInRow b{s.rows + static_cast<std::size_t>(block.group) * kTwistBlock};
     const std::size_t at = i * kTwistLanes;
-    Floats budget = load(s.budget + at);
-    const Ints has_pair = ~(budget >= kNoPair);
-    if (block.path > 0.0F) budget = has_pair ? budgetAfter(budget, zero + block.path) : budget;
+    Floats clearance = load(s.clearance + at);
+    const Ints has_pair = ~(clearance >= kNoPair);
+    if (block.path > 0.0F) clearance = has_pair ? clearanceAfter(clearance, zero + block.path) : clearance;
     Floats travel = travelOf(a, b);
     if (add_spent) travel = (travel + load(s.spent + at)) * kUpwards;
-    const Floats left = has_pair ? budgetAfter(budget, travel) : budget;
+    const Floats left = has_pair ? clearanceAfter(clearance, travel) : clearance;
     const Floats error = poseErrorOf(a, b);
     const Floats needed = error + s.margin;
     const Ints is_quiet = left > needed;  // false for NaN
-    store(is_quiet ? left : budget, s.budget + at);
+    store(is_quiet ? left : clearance, s.clearance + at);
     store(left - needed, s.slack + at);
     const Floats bound = is_quiet ? load(s.error + at) + error : zero - 1.0F;
     error_bound.take(bound, i);
@@ -274,7 +274,7 @@ float roundedDown(double x) {
 
 }  // namespace
 
-ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : margin_(scene.pairs.size(), 0.0) {
+ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) {
   using Key = std::pair<std::int32_t, std::int32_t>;  // PairBlock::rows_a and group
   std::vector<std::pair<Key, std::size_t>> placed;    // per pair: its block and lane
   std::map<Key, std::size_t> known;                   // blocks
@@ -300,7 +300,7 @@ ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : m
     pairs_[slot] = static_cast<std::int32_t>(slots_.size());
     slots_.push_back(static_cast<std::int32_t>(slot));
   }
-  budget_.assign(pairs_.size(), kNoPair);
+  clearance_.assign(pairs_.size(), kNoPair);
   spent_.assign(pairs_.size(), 0.0F);
   slack_.assign(pairs_.size(), 0.0F);
   error_.assign(pairs_.size(), -kNoPair);
@@ -309,9 +309,7 @@ ClearanceTable::ClearanceTable(const Scene& scene, const BodyTwists& bodies) : m
   forget();
 }
 
-void ClearanceTable::setMargin(int pair, double margin, double error, bool measurable) {
-  margin_[static_cast<std::size_t>(pair)] = margin;
-  soon_[slot(pair)] = measurable ? kSoon : kNever;
+void ClearanceTable::setError(int pair, double error) {
   error_[slot(pair)] = static_cast<float>(error) * kUpwards;
   PairBlock& block = blocks_[blockOf(slot(pair))];
   const auto first = error_.begin() + static_cast<std::ptrdiff_t>(blockOf(slot(pair)) * kTwistLanes);
@@ -320,10 +318,11 @@ void ClearanceTable::setMargin(int pair, double margin, double error, bool measu
   block.worst = static_cast<std::int32_t>(largest - error_.begin());
 }
 
-/// A slot's budget now, rounded down: while its block waits, that before is stored.
-double ClearanceTable::budgetIn(std::size_t slot) const {
+/// A slot's clearance now, rounded down: while its block waits, that before is stored.
+double ClearanceTable::clearanceIn(std::size_t slot) const {
   const double path = blocks_[blockOf(slot)].path;
-  return path > 0.0 ? std::nextafter(budget_[slot] - path, -std::numeric_limits<double>::infinity()) : budget_[slot];
+  const double before = clearance_[slot];
+  return path > 0.0 ? std::nextafter(before - path, -std::numeric_limits<double>::infinity()) : before;
 }
 
 /// Ends the waiting of a block.
@@ -332,30 +331,30 @@ void ClearanceTable::settle(PairBlock& block) {
   if (!(block.path > 0.0F)) return;
   const auto first = static_cast<std::size_t>(&block - blocks_.data()) * kTwistLanes;
   for (std::size_t slot = first; slot < first + kTwistLanes; ++slot)
-    if (pairs_[slot] >= 0) budget_[slot] = roundedDown(budgetIn(slot));
+    if (pairs_[slot] >= 0) clearance_[slot] = roundedDown(clearanceIn(slot));
   block.path = 0.0F;
 }
 
-/// A pair's budget, to be changed.
+/// A pair's clearance, to be changed.
 float& ClearanceTable::settled(int pair) {
   settle(blocks_[blockOf(slot(pair))]);
-  return budget_[slot(pair)];
+  return clearance_[slot(pair)];
 }
 
 void ClearanceTable::set(int pair, double clearance) {
   constexpr double kFar = 1e6;  // [m]: farther pairs are tested earlier than necessary
-  settled(pair) = roundedDown(std::min(clearance - margin(pair), kFar));
-  if (soon_[slot(pair)] == kPaused) soon_[slot(pair)] = kSoon;
+  settled(pair) = roundedDown(std::min(clearance, kFar));
+  soon_[slot(pair)] = kSoon;
 }
 
 void ClearanceTable::pauseSoon(int pair) {
-  if (soon_[slot(pair)] == kSoon) soon_[slot(pair)] = kPaused;
+  soon_[slot(pair)] = kPaused;
 }
 
 void ClearanceTable::spend(int pair, double displacement) {
-  float& budget = settled(pair);
-  budget = roundedDown(double(budget) - displacement);
-  if (!(budget > 0.0F)) budget = kUnknown;
+  float& clearance = settled(pair);
+  clearance = roundedDown(double(clearance) - displacement);
+  if (!(clearance > 0.0F)) clearance = kUnknown;
 }
 
 void ClearanceTable::forget(int pair) {
@@ -365,13 +364,13 @@ void ClearanceTable::forget(int pair) {
 void ClearanceTable::forget() {
   for (PairBlock& block : blocks_) settle(block);
   for (const std::int32_t slot : slots_)
-    if (slot >= 0) budget_[static_cast<std::size_t>(slot)] = kUnknown;
+    if (slot >= 0) clearance_[static_cast<std::size_t>(slot)] = kUnknown;
 }
 
 void ClearanceTable::take(const ClearanceTable& other, const std::vector<Moved>& pairs) {
   for (PairBlock& block : blocks_) settle(block);
   for (const Moved& pair : pairs)
-    budget_[static_cast<std::size_t>(pair.to)] = roundedDown(other.budgetIn(static_cast<std::size_t>(pair.from)));
+    clearance_[static_cast<std::size_t>(pair.to)] = roundedDown(other.clearanceIn(static_cast<std::size_t>(pair.from)));
 }
 
 void ClearanceTable::advance(const BodyTwists& bodies) {
@@ -384,10 +383,10 @@ SkippedPairs ClearanceTable::finish(const BodyTwists& bodies, std::vector<DuePai
   due.clear();
   if (blocks_.empty()) return {};
   std::size_t count = 0;
-  SkippedPairs quiet = scanPairs({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), budget_.data(),
-                                  spent_.data(), slack_.data(), error_.data(), soon_.data(),
-                                  static_cast<float>(margin) * kUpwards},
-                                 has_spent_, due_blocks_.data(), &count);
+  SkippedPairs quiet =
+      scanPairs({bodies.rows(), bodies.groups(), blocks_.data(), blocks_.size(), clearance_.data(), spent_.data(),
+                 slack_.data(), error_.data(), soon_.data(), static_cast<float>(margin) * kUpwards},
+                has_spent_, due_blocks_.data(), &count);
   if (has_spent_) std::fill(spent_.begin(), spent_.end(), 0.0F);
   has_spent_ = false;
   if (quiet.pair >= 0) quiet.pair = pairs_[static_cast<std::size_t>(quiet.pair)];

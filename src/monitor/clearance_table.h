@@ -11,7 +11,9 @@ namespace sdf_ccd {
 
 /// A pair that must be tested.
 struct DuePair {
-  float left;  ///< remaining budget, at most zero [m]; −∞ if nothing is known
+  /// Lower bound of its bodies' distance over the whole cycle, the motion's error taken off, at most zero: if negative,
+  /// its amount bounds their overlap [m]; −∞ if nothing is known.
+  float left;
   int pair;
 };
 
@@ -31,22 +33,22 @@ struct SkippedPairs {
 struct PairBlock {
   std::int32_t rows_a;  ///< twistOffset() of the one body
   std::int32_t group;   ///< of the others
-  /// The smallest of the pairs' budgets at their last scan; −∞ if they must be scanned again [m].
+  /// The smallest of the pairs' clearances at their last scan; −∞ if they must be scanned again [m].
   float least = -std::numeric_limits<float>::infinity();
   float path = 0.0F;       ///< bound of the one body's path since then, in which the others rested [m]
   float error = 0.0F;      ///< the largest error bound, without the motion's error [m]
   std::int32_t worst = 0;  ///< the slot of the pair with that bound
 };
 
-/// Stores for every pair how far its bodies may still move relative to each other before it must be tested. This budget
-/// is the known clearance minus the margin within which a test could find something.
+/// Stores the clearance of every pair: how far its bodies may still move relative to each other before it must be
+/// tested.
 ///
 /// Pairs are stored in blocks of one body (the robot's, if the other is the world's) against kTwistLanes bodies of a
-/// group, so that a scan reads all data as vectors without gathers. Lanes without a pair cost nothing extra. Budgets
+/// group, so that a scan reads all data as vectors without gathers. Lanes without a pair cost nothing extra. Clearances
 /// are rounded down.
 ///
-/// While the bodies of a block's group rest, no pair of it is closer than its budget before minus the path of the one
-/// body. So long as that leaves the smallest of the budgets far from used up, only this path is added up.
+/// While the bodies of a block's group rest, no pair of it is closer than its clearance before minus the path of the
+/// one body. So long as that leaves the smallest of the clearances far from used up, only this path is added up.
 class ClearanceTable {
  public:
   static constexpr float kUnknown = -std::numeric_limits<float>::infinity();
@@ -58,10 +60,8 @@ class ClearanceTable {
   /// that it holds.
   bool holds(int pair) const { return slots_[static_cast<std::size_t>(pair)] >= 0; }
 
-  /// @param margin  distance within which a test could find something, without the motion's error [m].
-  /// @param error   the pair's error bound, without the motion's error [m].
-  /// @param measurable  whether SkippedPairs::soon may be the pair.
-  void setMargin(int pair, double margin, double error, bool measurable = true);
+  /// @param error  the pair's error bound, without the motion's error [m].
+  void setError(int pair, double error);
 
   /// Sets the clearance of a pair that a test has found clear, and whose bodies are followed from there on.
   /// @param clearance  lower bound of the distance [m].
@@ -79,7 +79,7 @@ class ClearanceTable {
     return {slots_[static_cast<std::size_t>(pair)], other.slots_[static_cast<std::size_t>(other_pair)]};
   }
 
-  /// Takes over budgets from another table between two cycles.
+  /// Takes over clearances from another table between two cycles.
   void take(const ClearanceTable& other, const std::vector<Moved>& pairs);
 
   /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m]. The clearance is forgotten
@@ -87,38 +87,36 @@ class ClearanceTable {
   void spend(int pair, double displacement);
 
   /// Whether the pair has a known clearance.
-  bool isKnown(int pair) const { return budget_[slot(pair)] != kUnknown; }
+  bool isKnown(int pair) const { return clearance_[slot(pair)] != kUnknown; }
 
   /// A lower bound of the distance after the last scan; for a due pair, before it [m].
-  double clearance(int pair) const { return budgetIn(slot(pair)) + margin_[static_cast<std::size_t>(pair)]; }
-  double margin(int pair) const { return margin_[static_cast<std::size_t>(pair)]; }
+  double clearance(int pair) const { return clearanceIn(slot(pair)); }
 
   /// Subtracts an upper bound of the bodies' relative displacement in a step that is not the cycle's last.
   void advance(const BodyTwists& bodies);
 
-  /// The same for the last step. Pairs are due if their budget is used up, or if one of their bodies is not followed;
-  /// their budgets stay as they were at the cycle's start.
+  /// The same for the last step. Pairs are due if their clearance is used up, or if one of their bodies is not
+  /// followed; their clearances stay as they were at the cycle's start.
   /// @param due  receives the due pairs, the most urgent first; its memory is reused.
-  /// @param margin  what must be left of a budget [m].
+  /// @param margin  what must be left of a clearance [m].
   SkippedPairs finish(const BodyTwists& bodies, std::vector<DuePair>& due, double margin = 0.0);
 
  private:
   std::size_t slot(int pair) const { return static_cast<std::size_t>(slots_[static_cast<std::size_t>(pair)]); }
 
   static std::size_t blockOf(std::size_t slot) { return slot / kTwistLanes; }
-  double budgetIn(std::size_t slot) const;
+  double clearanceIn(std::size_t slot) const;
   float& settled(int pair);
   void settle(PairBlock& block);
 
   std::vector<PairBlock> blocks_;
   std::vector<std::int32_t> slots_;  // per pair
-  std::vector<double> margin_;       // per pair [m]
   std::vector<std::int32_t> pairs_;  // per slot; -1: no pair
-  std::vector<float> budget_;        // per slot [m]
+  std::vector<float> clearance_;     // per slot [m]
   std::vector<float> spent_;         // per slot: displacement in the cycle's steps up to now [m]
   std::vector<float> error_;         // per slot [m]
-  std::vector<float> soon_;   // per slot: cycles in which SkippedPairs::soon would be due; else kNever or kPaused
-  std::vector<float> slack_;  // per slot: budget that remains after the last scan [m]
+  std::vector<float> soon_;          // per slot: cycles in which SkippedPairs::soon would be due; else kPaused
+  std::vector<float> slack_;         // per slot: clearance that remains after the last scan [m]
   std::vector<std::size_t> due_blocks_;
   bool has_spent_ = false;
 };

@@ -15,7 +15,7 @@ Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
       failed_.push_back(static_cast<int>(i));
       continue;
     }
-    table_.setMargin(static_cast<int>(i), 0.0, checkers[i].bound().total());
+    table_.setError(static_cast<int>(i), checkers[i].bound().total());
   }
   due_.reserve(checkers.size());
   for (const PlannedPair& pair : scene.pairs)

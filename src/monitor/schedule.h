@@ -51,10 +51,6 @@ class Schedule {
   double motionError(int pair) const;
   double clearance(int pair) const { return table_.clearance(pair); }
 
-  /// For a due pair: lower bound of its bodies' distance over the whole cycle [m]; if negative, its amount bounds their
-  /// overlap; −∞ if nothing is known.
-  double leftClearance(const DuePair& due) const { return double(due.left) + table_.margin(due.pair); }
-
   /// Stores the clearances that the checkers of the due pairs have found.
   void settle(const CycleMotion& motion, const std::vector<PairChecker>& checkers);
 

@@ -13,7 +13,7 @@
 
 namespace sdf_ccd::test {
 
-constexpr double kBudget = 64.0;  // [m]
+constexpr double kClearance = 64.0;  // [m]
 
 /// Bodies that are balls, and most of their pairs.
 inline Scene balls(int count, Random& random) {

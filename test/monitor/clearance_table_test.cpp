@@ -79,28 +79,29 @@ TEST(ClearanceTable, SubtractsNoLessThanBodiesMoveAndLittleMore) {
     };
     run(before);
     ASSERT_EQ(due.size(), scene.pairs.size());  // nothing is known yet
-    for (int i = 0; i < int(scene.pairs.size()); ++i) table.set(i, kBudget);
+    for (int i = 0; i < int(scene.pairs.size()); ++i) table.set(i, kClearance);
     run(before);
     ASSERT_TRUE(due.empty());
     run(motion);
     ASSERT_TRUE(due.empty());
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      const double used = kBudget - table.clearance(int(i));
+      const double used = kClearance - table.clearance(int(i));
       const Real change = largestChange(scene, scene.pairs[i], motion, random);
       ASSERT_GE(used, change) << "trial " << trial << ", pair " << i;
       const double bound = boundOf(scene, scene.pairs[i], motion);
-      // Tolerance for single precision: relative to the budget, and to the motion of each body.
-      const double coarse = 2e-6 * kBudget + 1e-5 * (family.angle * (2.0 * family.apart + 1.0) + family.shift) * steps;
+      // Tolerance for single precision: relative to the clearance, and to the motion of each body.
+      const double coarse =
+          2e-6 * kClearance + 1e-5 * (family.angle * (2.0 * family.apart + 1.0) + family.shift) * steps;
       ASSERT_LE(used, 1.05 * bound + coarse) << "trial " << trial << ", pair " << i;
       if (change > 1e-4) worst = std::max(worst, double(change) / used);
       if (bound > 0.1) loosest = std::max(loosest, used / bound);
     }
   }
   EXPECT_GT(worst, 0.9);     // climbing comes close to the bound
-  EXPECT_LT(loosest, 1.02);  // where the bound is large compared with the rounding of the budget
+  EXPECT_LT(loosest, 1.02);  // where the bound is large compared with the rounding of the clearance
 }
 
-TEST(ClearanceTable, KeepsABudgetExactlyWhileNothingMoves) {
+TEST(ClearanceTable, KeepsAClearanceExactlyWhileNothingMoves) {
   Random random(2);
   const Scene scene = balls(9, random);
   const std::vector<char> whole(9, 1);
@@ -134,8 +135,8 @@ TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
   bodies.end(still, whole);
   const int count = int(scene.pairs.size());
   for (int i = 0; i < count; ++i) {
-    table.setMargin(i, 0.01, 1e-3 * i);
-    table.set(i, 0.01 + 0.001 * (i - 4));  // the first five have no budget left
+    table.setError(i, 1e-3 * i);
+    table.set(i, 0.001 * (i - 4));  // the first five have no clearance left
   }
   table.forget(7);
   bodies.begin(still, whole);
@@ -190,7 +191,7 @@ TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
   EXPECT_EQ(dueAfter(vague), 0u);
 }
 
-/// Of three pairs whose budgets last for one more step, for two, and for more, the first one is named. That of two
+/// Of three pairs whose clearances last for one more step, for two, and for more, the first one is named. That of two
 /// bodies at rest lasts for ever, however small it is.
 TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   constexpr double kStep = 0.01;
@@ -204,18 +205,16 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   scene.pairs = {{0, 1, true, true}, {0, 2, true, true}, {0, 3, true, true}, {1, 2, true, true}};
   const std::vector<char> whole(4, 1);
   const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 0.0, false}, 4, 1, random));
-  enum class Second { kMeasurable, kNotMeasurable, kPaused };
-  const auto soonWith = [&](double first, double second, double third, Second kind = Second::kMeasurable) {
+  const auto soonWith = [&](double first, double second, double third, bool is_second_paused = false) {
     BodyTwists bodies(scene);
     ClearanceTable table(scene, bodies);
     std::vector<DuePair> due;
     bodies.begin(still, whole);
     bodies.end(still, whole);
-    table.setMargin(1, 0.0, 0.0, kind != Second::kNotMeasurable);
     table.pauseSoon(0);
     table.set(0, first);
     table.set(1, second);
-    if (kind == Second::kPaused) table.pauseSoon(1);
+    if (is_second_paused) table.pauseSoon(1);
     table.set(2, third);
     table.set(3, 1e-6);
     CycleMotion moves = still;
@@ -227,8 +226,7 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   };
   EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep), 1);
   EXPECT_EQ(soonWith(2.9 * kStep, 9.0 * kStep, 9.0 * kStep), 0);
-  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, Second::kNotMeasurable), 0);
-  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, Second::kPaused), 0);
+  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, true), 0);
   EXPECT_EQ(soonWith(3.1 * kStep, 9.0 * kStep, 9.0 * kStep), -1);
 }
 

@@ -29,8 +29,8 @@ Scene robotInAWorld(Random& random) {
 }
 
 /// While the world rests, only the paths of the robot's bodies are added up. In 400 cycles, in which some of the world
-/// moves now and then and pairs are set, forgotten and spent, no distance changes by more than the budget does.
-TEST(RestingBodies, BudgetsAreNoLargerThanWhatIsLeft) {
+/// moves now and then and pairs are set, forgotten and spent, no distance changes by more than the clearance does.
+TEST(RestingBodies, ClearancesAreNoLargerThanWhatIsLeft) {
   Random random(6);
   const Scene scene = robotInAWorld(random);
   const std::size_t count = scene.pairs.size();
@@ -62,7 +62,7 @@ TEST(RestingBodies, BudgetsAreNoLargerThanWhatIsLeft) {
     };
     watched[i] = {pointOf(pair.body_a), pointOf(pair.body_b), 0, 0.0, 0.0};
     watched[i].distance = distanceOf(pair, watched[i]);
-    table.set(int(i), kBudget);
+    table.set(int(i), kClearance);
   };
   int looser = 0;
   double worst = 0.0;
@@ -90,7 +90,7 @@ TEST(RestingBodies, BudgetsAreNoLargerThanWhatIsLeft) {
         continue;
       }
       Watched& w = watched[i];
-      const double used = kBudget - table.clearance(int(i)) - w.spent;
+      const double used = kClearance - table.clearance(int(i)) - w.spent;
       const Real change = std::abs(distanceOf(scene.pairs[i], w) - w.distance);
       ASSERT_GE(used, change) << "cycle " << cycle << ", pair " << i;
       w.bound += boundOf(scene, scene.pairs[i], motion);
@@ -150,7 +150,7 @@ class OneMoves {
 };
 
 /// Nothing is used up while nothing moves, also after something has.
-TEST(RestingBodies, ABudgetStaysWhileNothingMoves) {
+TEST(RestingBodies, AClearanceStaysWhileNothingMoves) {
   OneMoves balls;
   balls.cycle(0.0);
   for (const int pair : {0, 1}) balls.table.set(pair, 1.0);
@@ -162,7 +162,7 @@ TEST(RestingBodies, ABudgetStaysWhileNothingMoves) {
   EXPECT_EQ(balls.table.clearance(0), after);
 }
 
-/// Steps far below the rounding of the budget, after each of which another pair of the block is set.
+/// Steps far below the rounding of the clearance, after each of which another pair of the block is set.
 TEST(RestingBodies, TinyPathsAreUsedUp) {
   OneMoves balls;
   balls.cycle(0.0);
@@ -190,7 +190,7 @@ TEST(RestingBodies, TheLargestErrorIsReported) {
     std::vector<DuePair> due;
     for (int i = 0; i < count; ++i) {
       errors.push_back(uniform(random, 0.0, 1e-3));
-      table.setMargin(i, 0.0, errors.back());
+      table.setError(i, errors.back());
     }
     CycleMotion motion = restAt(motionOf({0.0, 0.0, 2.0, 1.0, false}, 26, 1, random));
     motion.motion_error.assign(26, 0.0);
@@ -217,7 +217,7 @@ TEST(RestingBodies, TheLargestErrorIsReported) {
         ASSERT_GE(quiet.pair, 0);
       }
       bodies.end(motion, whole);
-      for (int i = 0; i < count && cycle == 0; ++i) table.set(i, kBudget);
+      for (int i = 0; i < count && cycle == 0; ++i) table.set(i, kClearance);
     }
   }
 }
