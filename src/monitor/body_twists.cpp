@@ -131,30 +131,17 @@ void BodyTwists::forget() {
   }
 }
 
-void BodyTwists::take(const BodyTwists& other, const std::vector<BodyRun>& bodies) {
+void BodyTwists::take(const BodyTwists& other, const std::vector<int>& before) {
   origin_ = other.origin_;
   endRest();
-  for (const BodyRun& run : bodies) {
-    std::copy_n(other.bodies_.begin() + static_cast<std::ptrdiff_t>(run.from), run.count,
-                bodies_.begin() + static_cast<std::ptrdiff_t>(run.to));
-    for (std::size_t i = 0; i < run.count;) {
-      const float* from = other.rows_.data() + twistOffset(other.slots_[run.from + i]);
-      float* to = rows_.data() + twistOffset(slots_[run.to + i]);
-      if (run.count - i >= kTwistLanes && other.fillGroup(run.from + i) && fillGroup(run.to + i)) {
-        std::copy_n(from, kTwistBlock, to);
-        i += kTwistLanes;
-      } else {
-        for (std::size_t row = 0; row < kTwistBlock; row += kTwistLanes) to[row] = from[row];
-        ++i;
-      }
-    }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (before[b] < 0) continue;
+    const auto known = static_cast<std::size_t>(before[b]);
+    bodies_[b] = other.bodies_[known];
+    const float* from = other.rows() + twistOffset(other.slots_[known]);
+    float* to = rows_.data() + twistOffset(slots_[b]);
+    for (std::size_t row = 0; row < kTwistBlock; row += kTwistLanes) to[row] = from[row];
   }
-}
-
-/// Whether a body and the next ones fill a group.
-bool BodyTwists::fillGroup(std::size_t first_body) const {
-  const std::size_t first = slots_[first_body];
-  return first % kTwistLanes == 0 && slots_[first_body + kTwistLanes - 1] == first + kTwistLanes - 1;
 }
 
 double BodyTwists::displacement(int body, const BodyTwists& other, int other_body) const {

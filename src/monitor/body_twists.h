@@ -48,11 +48,6 @@ struct TwistGroup {
 
 struct TwistLanes;
 
-/// Bodies with consecutive indices in two scenes.
-struct BodyRun {
-  std::size_t to, from, count;
-};
-
 /// The twists of a scene's bodies, computed once per step for all pairs.
 ///
 /// A body is followed if its motion starts at the pose at which the last cycle ended. A body at rest (bitwise equal
@@ -75,8 +70,8 @@ class BodyTwists {
   void forget();
 
   /// Takes over the bodies' data from another scene between two cycles, without allocating. All other bodies keep their
-  /// poses.
-  void take(const BodyTwists& other, const std::vector<BodyRun>& bodies);
+  /// poses. @param before  per body: its index in the other scene; −1 if it is not there.
+  void take(const BodyTwists& other, const std::vector<int>& before);
 
   /// Upper bound of the displacement of a body's points from its pose here to that in another scene [m], where it has
   /// the index `other_body`; infinite if one of the poses is not known.
@@ -121,7 +116,6 @@ class BodyTwists {
   void endRest();
   void summariseGroups();
   void chooseOrigin();
-  bool fillGroup(std::size_t first_body) const;
   float& at(TwistRow row, std::size_t body, int offset = 0) {
     return rows_[twistOffset(slots_[body]) +
                  (static_cast<std::size_t>(row) + static_cast<std::size_t>(offset)) * kTwistLanes];

@@ -367,10 +367,13 @@ void ClearanceTable::forget() {
     if (slot >= 0) clearance_[static_cast<std::size_t>(slot)] = kUnknown;
 }
 
-void ClearanceTable::take(const ClearanceTable& other, const std::vector<Moved>& pairs) {
+void ClearanceTable::take(const ClearanceTable& other, const std::vector<int>& pairs_now) {
   for (PairBlock& block : blocks_) settle(block);
-  for (const Moved& pair : pairs)
-    clearance_[static_cast<std::size_t>(pair.to)] = roundedDown(other.clearanceIn(static_cast<std::size_t>(pair.from)));
+  for (std::size_t pair = 0; pair < pairs_now.size(); ++pair) {
+    const int now = pairs_now[pair];
+    if (now < 0 || !holds(now)) continue;
+    clearance_[slot(now)] = roundedDown(other.clearanceIn(other.slot(static_cast<int>(pair))));
+  }
 }
 
 void ClearanceTable::advance(const BodyTwists& bodies) {

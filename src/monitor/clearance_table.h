@@ -71,16 +71,9 @@ class ClearanceTable {
   void forget(int pair);
   void forget();
 
-  /// A pair's slots in this table and in another one.
-  struct Moved {
-    std::int32_t to, from;  // slots
-  };
-  Moved moved(int pair, const ClearanceTable& other, int other_pair) const {
-    return {slots_[static_cast<std::size_t>(pair)], other.slots_[static_cast<std::size_t>(other_pair)]};
-  }
-
-  /// Takes over clearances from another table between two cycles.
-  void take(const ClearanceTable& other, const std::vector<Moved>& pairs);
+  /// Takes over clearances from another table between two cycles. @param pairs_now  per pair of the other table: its
+  /// index in this one; −1 if it is not there.
+  void take(const ClearanceTable& other, const std::vector<int>& pairs_now);
 
   /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m]. The clearance is forgotten
   /// if it is used up: one body may be inside the other then, though their surfaces are apart.

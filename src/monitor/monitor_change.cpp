@@ -20,7 +20,6 @@ struct MonitorChange::Impl {
   std::unique_ptr<Monitor::Impl> monitor;
   std::shared_ptr<const Scene> before;
   SceneDifference difference;
-  Schedule::Kept kept;
 
   void testNewPairs(CycleMotion motion);
   void testInTime(CycleMotion motion);
@@ -34,13 +33,14 @@ const SceneDifference& MonitorChange::difference() const {
 }
 
 void MonitorChange::Impl::testNewPairs(CycleMotion motion) {
-  if (kept.new_pairs.empty() || motion.times.empty()) return;
+  const std::vector<int>& new_pairs = difference.newPairs();
+  if (new_pairs.empty() || motion.times.empty()) return;
   motion.spans.assign(monitor->result.pairs.size(), WaypointSpan());
-  for (const int pair : kept.new_pairs) motion.spans[static_cast<std::size_t>(pair)] = {0, motion.times.size() - 1};
+  for (const int pair : new_pairs) motion.spans[static_cast<std::size_t>(pair)] = {0, motion.times.size() - 1};
   CycleRequest request{false, 0, false, false};
   request.max_time = kTestTime;
   monitor->run(motion, request);
-  monitor->last_due = kept.new_pairs;  // not the others, which were delayed
+  monitor->last_due = new_pairs;  // not the others, which were delayed
 }
 
 /// Whoever prepares a change may hold up others, and a single pair can take long: then the next cycle has to.
@@ -58,17 +58,8 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
   if (!next) throw std::invalid_argument("monitor: no scene");
   auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
   const Scene& scene = *made->scene;
-  auto change = std::make_unique<MonitorChange::Impl>(
-      MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, scene}, {}});
-  Schedule::Kept& kept = change->kept;
-  kept.bodies = change->difference.bodyRuns();
-  kept.before = change->difference.bodiesBefore();
-  const std::vector<int>& pairs_now = change->difference.pairsNow();
-  std::vector<char> is_new(scene.pairs.size(), 1);
-  for (const int now : pairs_now)
-    if (now >= 0) is_new[static_cast<std::size_t>(now)] = 0;
-  for (std::size_t p = 0; p < is_new.size(); ++p)
-    if (is_new[p]) kept.new_pairs.push_back(static_cast<int>(p));
+  auto change =
+      std::make_unique<MonitorChange::Impl>(MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, scene}});
   if (likely) change->testInTime(*likely);
   Impl& monitor = *change->monitor;
 
@@ -77,12 +68,10 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
   monitor.last_waypoint = last;
   for (PairResult& result : monitor.result.pairs)
     if (last > 0) result.span = {0, last};
-  for (std::size_t p = 0; p < pairs_now.size(); ++p) {
-    const int now = pairs_now[p];
+  for (const int now : change->difference.pairsNow()) {
     if (now < 0 || monitor.is_failed[static_cast<std::size_t>(now)]) continue;
     setSkipped(monitor.checkers[static_cast<std::size_t>(now)].bound(),
                monitor.result.pairs[static_cast<std::size_t>(now)]);
-    kept.pairs.push_back(monitor.schedule->moved(now, *impl_->schedule, static_cast<int>(p)));
   }
   return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
 }
@@ -91,7 +80,7 @@ void Monitor::adopt(MonitorChange& change) {
   MonitorChange::Impl& made = *change.impl_;
   if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
   Impl& next = *made.monitor;
-  next.schedule->take(*impl_->schedule, made.kept);
+  next.schedule->take(*impl_->schedule, made.difference);
   // For pairs that are not due, the checker's other data would only make the next test faster.
   for (const int pair : impl_->last_due) {
     const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];

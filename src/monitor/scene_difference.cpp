@@ -32,28 +32,16 @@ SceneDifference::SceneDifference(const Scene& before, const Scene& now) {
     if (a >= 0 && b >= 0) pairs.emplace(keyOf(a, b), static_cast<int>(p));
   }
   pairs_now_.assign(before.pairs.size(), -1);
+  std::vector<char> is_new(now.pairs.size(), 1);
   for (std::size_t p = 0; p < before.pairs.size(); ++p) {
     const PlannedPair& pair = before.pairs[p];
     const auto found = pairs.find(keyOf(pair.body_a, pair.body_b));
-    if (found != pairs.end() && sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)]))
-      pairs_now_[p] = found->second;
+    if (found == pairs.end() || !sameTests(pair, now.pairs[static_cast<std::size_t>(found->second)])) continue;
+    pairs_now_[p] = found->second;
+    is_new[static_cast<std::size_t>(found->second)] = 0;
   }
-}
-
-std::vector<BodyRun> SceneDifference::bodyRuns() const {
-  std::vector<BodyRun> runs;
-  for (std::size_t b = 0; b < bodies_before_.size(); ++b) {
-    if (bodies_before_[b] < 0) continue;
-    const auto from = static_cast<std::size_t>(bodies_before_[b]);
-    const bool goes_on =
-        !runs.empty() && runs.back().to + runs.back().count == b && runs.back().from + runs.back().count == from;
-    if (goes_on) {
-      ++runs.back().count;
-    } else {
-      runs.push_back({b, from, 1});
-    }
-  }
-  return runs;
+  for (std::size_t p = 0; p < is_new.size(); ++p)
+    if (is_new[p] != 0) new_pairs_.push_back(static_cast<int>(p));
 }
 
 std::vector<std::pair<std::string, std::string>> pairNames(const Scene& scene) {

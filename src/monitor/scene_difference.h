@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "body_twists.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {
@@ -20,11 +19,11 @@ class SceneDifference {
   /// Per pair of `before`: its index in `now`; -1 if it was removed or has changed.
   const std::vector<int>& pairsNow() const { return pairs_now_; }
 
-  /// The common bodies, as ranges of consecutive indices in both scenes.
-  std::vector<BodyRun> bodyRuns() const;
+  /// All other pairs of `now`.
+  const std::vector<int>& newPairs() const { return new_pairs_; }
 
  private:
-  std::vector<int> bodies_before_, pairs_now_;
+  std::vector<int> bodies_before_, pairs_now_, new_pairs_;
 };
 
 /// Names of the bodies of each pair, A's first.

@@ -86,23 +86,23 @@ double Schedule::motionError(int pair) const {
   return bodies_.poseError(planned.body_a, planned.body_b);
 }
 
-void Schedule::spendDisplacement(const Schedule& other, const Kept& kept) {
-  for (const int pair : kept.new_pairs) {
+void Schedule::spendDisplacement(const Schedule& other, const SceneDifference& difference) {
+  for (const int pair : difference.newPairs()) {
     if (!table_.holds(pair) || !table_.isKnown(pair)) continue;
     const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
     double displacement = 0.0;
     for (const int body : {planned.body_a, planned.body_b}) {
-      const int before = kept.before[static_cast<std::size_t>(body)];
+      const int before = difference.bodiesBefore()[static_cast<std::size_t>(body)];
       if (before >= 0) displacement += bodies_.displacement(body, other.bodies_, before);
     }
     table_.spend(pair, displacement);
   }
 }
 
-void Schedule::take(const Schedule& other, const Kept& kept) {
-  spendDisplacement(other, kept);
-  bodies_.take(other.bodies_, kept.bodies);
-  table_.take(other.table_, kept.pairs);
+void Schedule::take(const Schedule& other, const SceneDifference& difference) {
+  spendDisplacement(other, difference);
+  bodies_.take(other.bodies_, difference.bodiesBefore());
+  table_.take(other.table_, difference.pairsNow());
   all_whole_ = other.all_whole_;
   if (all_whole_) is_whole_.swap(is_paired_);
 }

@@ -6,6 +6,7 @@
 
 #include "clearance_table.h"
 #include "pair_checker.h"
+#include "scene_difference.h"
 
 namespace sdf_ccd {
 
@@ -56,25 +57,15 @@ class Schedule {
 
   void forget();
 
-  /// Common bodies and pairs of two schedules' scenes.
-  struct Kept {
-    std::vector<BodyRun> bodies;
-    std::vector<ClearanceTable::Moved> pairs;
-    std::vector<int> new_pairs;  ///< all others
-    std::vector<int> before;  ///< per body: its index in the other schedule's scene; −1 if it is new or has changed
-  };
-  ClearanceTable::Moved moved(int pair, const Schedule& other, int other_pair) const {
-    return table_.moved(pair, other.table_, other_pair);
-  }
-
   /// Takes over the data of another schedule between two cycles, without allocating. New pairs whose clearance this
   /// schedule knows from an earlier cycle keep what is left of it, now that the common bodies are elsewhere.
-  void take(const Schedule& other, const Kept& kept);
+  /// @param difference  of the other schedule's scene and this one's.
+  void take(const Schedule& other, const SceneDifference& difference);
 
  private:
   bool isWhole(const CycleMotion& motion, std::size_t pair) const;
   void findWhole(const CycleMotion& motion);
-  void spendDisplacement(const Schedule& other, const Kept& kept);
+  void spendDisplacement(const Schedule& other, const SceneDifference& difference);
   void handOver(const CycleMotion& motion, int pair, PairChecker& checker) const;
 
   const Scene& scene_;
