@@ -42,7 +42,7 @@ PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
 void PairDistances::forget() {
   if (is_empty_) return;
   for (Pair& pair : pairs_) {
-    pair.is_known = pair.is_near = false;
+    pair.is_near = false;
     pair.known_within = kNotMeasured;
   }
   near_.clear();
@@ -81,7 +81,7 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
       if (known.is_near) known.last.time -= later;  // times count from this cycle's start
       has_unknown_ |= !known.is_near && known.known_within < range;
     } else if (pair.verdict == Verdict::kNotChecked) {
-      known.is_near = known.is_known = false;
+      known.is_near = false;
       known.known_within = kNotMeasured;
     } else {
       measure(i, motion, pair, range, record);
@@ -92,22 +92,13 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
   return near_;
 }
 
-/// Whether the pair is certainly farther apart than the range, from stored bounds alone.
-bool PairDistances::isFar(std::size_t i, const PairResult& result, const Isometry3d& X_FP, double range) {
-  if (result.verdict == Verdict::kClear && result.clearance > range) return true;
-  const Pair& pair = pairs_[i];
-  if (!pair.is_known || pair.at_least <= range) return false;
-  return pair.at_least - maxDisplacement(pair.X_FP, X_FP, scene_->bodies[result.body_b].ball) > range;
-}
-
 void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range,
                             const CycleRecord& record) {
   Pair& pair = pairs_[i];
+  pair.is_near = false;
+  if (result.verdict == Verdict::kClear && result.clearance > range) return;
   const Isometry3d &X_WA = motion.pose(result.body_a, result.span.last),
                    &X_WB = motion.pose(result.body_b, result.span.last);
-  const Isometry3d X_AB = relativePose(X_WA, X_WB);
-  pair.is_near = false;
-  if (isFar(i, result, X_AB, range)) return;
   PairDistance found;
   found.pair = static_cast<int>(i);
   found.body_a = result.body_a;
@@ -127,16 +118,12 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
     if (!is_within || found.distance > 0.0) found.error = gone;
     found.distance = 0.0;
     found.slab.reset();
-    pair.is_known = false;
     const bool is_with_plane = !scene_->bodies[result.body_a].triangles || !scene_->bodies[result.body_b].triangles;
     if (!(is_within && is_with_plane)) {
       found.p_A_W = found.p_B_W = result.deepest.p_W;
       found.normal_W = result.deepest.normal_W;
     }
   } else {
-    pair.is_known = scene_->bodies[result.body_b].half_spaces.empty();  // stored for isFar(), which moves body B's ball
-    pair.at_least = is_within ? found.distance - found.error : range;
-    pair.X_FP = X_AB;
     if (!is_within) return;
     if (result.verdict == Verdict::kClear) {
       found.error = std::min(found.error, std::max(0.0, found.distance - result.clearance));

@@ -46,8 +46,8 @@ struct PairDistance {
 /// Distances of nearby pairs over cycles, each with the witness points at which the bodies are nearest: exact up to the
 /// deviation of Body::triangles.
 ///
-/// A pair that cannot have come within range since it was last measured costs some nanoseconds per cycle, another one
-/// some microseconds. Memory is allocated only if more pairs are near each other than ever before.
+/// A pair that the monitor knows to be beyond the range costs some nanoseconds per cycle, another one some
+/// microseconds. Memory is allocated only if more pairs are near each other than ever before.
 class PairDistances {
  public:
   explicit PairDistances(std::shared_ptr<const Scene> scene);
@@ -86,16 +86,12 @@ class PairDistances {
 
   struct Pair {
     double known_within = kNotMeasured;  // range of the last measurement [m]; kNotMeasured: not measured
-    bool is_known = false;
-    double at_least = 0.0;  // lower bound of the distance at X_FP [m]; valid if is_known
-    Isometry3d X_FP = Isometry3d::Identity();
     SeparationWitness witness;
     SurfaceMeasurement surfaces;
     PairDistance last;  // valid if is_near
     bool is_near = false;
   };
 
-  bool isFar(std::size_t pair, const PairResult& result, const Isometry3d& X_FP, double range);
   void measure(std::size_t pair, const CycleMotion& motion, const PairResult& result, double range,
                const CycleRecord& record);
   bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
