@@ -30,13 +30,13 @@ bool PairChecker::isAnswered(const SweptBodies& bodies, double error, const Cycl
 void PairChecker::answerOnce(const SweptBodies& bodies, double error, const CycleRequest& request, PairResult& result) {
   const Isometry3d X_AB = poseAtRest();
   const BoundingBall& ball = scene_.bodies[pair_.body_b].ball;
-  if (X_AB_as_it_came_ && maxDisplacement(*X_AB_as_it_came_, X_AB, ball) <= RestingAnswers::kMoved) return;
-  X_AB_as_it_came_.reset();
+  if (state_.X_AB_as_it_came && maxDisplacement(*state_.X_AB_as_it_came, X_AB, ball) <= RestingAnswers::kMoved) return;
+  state_.X_AB_as_it_came.reset();
   try {
     const std::shared_ptr<const RestingAnswer> found = findAtRest(X_AB, error, request);
     const Verdict verdict = found->result.verdict;
     if (verdict != result.verdict && (result.verdict == Verdict::kContact || verdict == Verdict::kNotChecked)) {
-      X_AB_as_it_came_ = X_AB;
+      state_.X_AB_as_it_came = X_AB;
       return;
     }
     is_to_complete_ = false;

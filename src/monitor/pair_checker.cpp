@@ -91,19 +91,9 @@ void PairChecker::takeOff(double margin, PairResult& result) const {
 
 void PairChecker::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {
   if (!surfaces_) return;
-  clearance_ = clearance;
-  inside_.reset();
-  X_FP_last_ = relativeMotion().f() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
-}
-
-void PairChecker::take(const PairChecker& other) {
-  clearance_ = other.clearance_;
-  outside_ = other.outside_;
-  inside_ = other.inside_;
-  X_FP_last_ = other.X_FP_last_;
-  untold_ = other.untold_;
-  X_AB_as_it_came_ = other.X_AB_as_it_came_;
-  if (surfaces_) surfaces_->take(*other.surfaces_);
+  state_.clearance = clearance;
+  state_.inside.reset();
+  state_.X_FP = relativeMotion().f() == pair_.body_a ? relativePose(X_WA, X_WB) : relativePose(X_WB, X_WA);
 }
 
 /// Sets the motion, and subtracts from the clearance what it may have used up.
@@ -112,14 +102,14 @@ void PairChecker::setMotion(const SweptBodies& bodies, const WaypointSpan& span)
   const RelativeMotion& motion = surfaces_->motion();
   travel_ = motion.travel();
   motion_error_ = motion.poseError();
-  const bool continues = X_FP_last_.matrix() == motion.start().matrix();
+  const bool continues = state_.X_FP.matrix() == motion.start().matrix();
   if (!continues) {
-    if (isKnown()) clearance_ -= motion.jumpFrom(X_FP_last_);
-    outside_ = false;
-    inside_.reset();
+    if (isKnown()) state_.clearance -= motion.jumpFrom(state_.X_FP);
+    state_.outside = false;
+    state_.inside.reset();
   }
-  clearance_ -= travel_;
-  X_FP_last_ = motion.end();
+  state_.clearance -= travel_;
+  state_.X_FP = motion.end();
 }
 
 /// The motion error given with the motion, for both bodies together [m].
@@ -139,12 +129,12 @@ void PairChecker::check(const CycleMotion& motion, const SweptBodies& bodies, co
   result.error = bound();
   result.error.chord = motion_error_;
   requireFinite(result.error);
-  if (clearance_ > motion_error_) {
-    setClear(clearance_, result);
+  if (state_.clearance > motion_error_) {
+    setClear(state_.clearance, result);
     result.skipped = true;
     return;
   }
-  const bool rests = resting_ && travel_ <= kStill && !inside_;  // inside_ is known from the motion before
+  const bool rests = resting_ && travel_ <= kStill && !state_.inside;  // state_.inside is known from the motion before
   const double error_at_rest = motion_error_ + travel_;
   if (rests && isAnswered(bodies, error_at_rest, request, result)) return;
   test(motion, bodies, request, given_error, result);
@@ -215,7 +205,7 @@ void PairChecker::describe(const CycleMotion& motion, const SweptBodies& bodies,
 
 /// @param clearance  lower bound of the distance at the span's end, for the bodies at the given poses [m].
 void PairChecker::setClear(double clearance, PairResult& result) {
-  clearance_ = clearance;
+  state_.clearance = clearance;
   result.verdict = Verdict::kClear;
   result.clearance = clearance - motion_error_;
 }
@@ -243,17 +233,17 @@ void PairChecker::setOpen(double open_within, PairResult& result) const {
 bool PairChecker::isClear(SurfacePair::Answer& answer, PairResult& result) {
   answer = surfaces_->decide(motion_error_, memory_->separation);
   if (answer.state != SeparationState::kApart) {
-    inside_.reset();
+    state_.inside.reset();
     return false;
   }
   if (answer.far) {
-    outside_ = true;
-    inside_.reset();
-  } else if (!outside_ && !inside_) {
+    state_.outside = true;
+    state_.inside.reset();
+  } else if (!state_.outside && !state_.inside) {
     findContainment();
   }
-  if (inside_) answer.crossing = surfaces_->contactInside(*inside_);
-  if (!outside_) return false;
+  if (state_.inside) answer.crossing = surfaces_->contactInside(*state_.inside);
+  if (!state_.outside) return false;
   setClear(answer.clearance, result);
   return true;
 }
@@ -263,13 +253,13 @@ bool PairChecker::isClear(SurfacePair::Answer& answer, PairResult& result) {
 void PairChecker::findContainment() {
   constexpr double kSmall = 0.1;
   const RelativeMotion& motion = surfaces_->motion();
-  if (untold_ && motion.jumpFrom(untold_->X_FP) < kSmall * surfaces_->size()) return;
-  const int attempt = untold_ ? untold_->attempts : 0;
+  if (state_.undecided && motion.jumpFrom(state_.undecided->X_FP) < kSmall * surfaces_->size()) return;
+  const int attempt = state_.undecided ? state_.undecided->attempts : 0;
   const SurfacePair::Containment found = surfaces_->containment(motion.end(), attempt);
-  outside_ = found.excluded;
-  inside_ = found.inside;
-  untold_.reset();
-  if (!outside_ && !inside_) untold_ = {motion.end(), attempt + 1};
+  state_.outside = found.excluded;
+  state_.inside = found.inside;
+  state_.undecided.reset();
+  if (!state_.outside && !state_.inside) state_.undecided = {motion.end(), attempt + 1};
 }
 
 std::optional<double> PairChecker::measure(const CycleMotion& motion, const SweptBodies& bodies,

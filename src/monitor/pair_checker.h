@@ -25,6 +25,24 @@ struct PairMemory {
   CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of all that is tested
 };
 
+/// What is known of a pair at the end of the last cycle.
+struct PairState {
+  static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+
+  /// Where it was last not known whether one body is inside the other, and how often in a row.
+  struct Undecided {
+    Isometry3d X_FP;
+    int attempts;
+  };
+
+  bool outside = false;                            ///< neither body has a component wholly inside the other
+  std::optional<SurfacePair::InsidePoint> inside;  ///< the surfaces are apart
+  double clearance = kUnknown;                     ///< lower bound of their distance [m]
+  Isometry3d X_FP = Isometry3d::Identity();        ///< valid if one of these is known
+  std::optional<Undecided> undecided;
+  std::optional<Isometry3d> X_AB_as_it_came;  ///< there the answer depends on the motion before
+};
+
 /// Checks one pair, cycle after cycle, and stores a bound of its distance in between.
 class PairChecker {
  public:
@@ -64,10 +82,7 @@ class PairChecker {
 
   /// Discards the clearance and all other data of earlier cycles.
   void forget() {
-    forgetClearance();
-    inside_.reset();
-    untold_.reset();
-    X_AB_as_it_came_.reset();
+    state_ = {};
     if (surfaces_) surfaces_->forget();
   }
 
@@ -76,28 +91,23 @@ class PairChecker {
   void remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB);
 
   /// Takes over the stored data of another checker of the same pair, in a scene that has the same bodies.
-  void take(const PairChecker& other);
+  void take(const PairChecker& other) {
+    state_ = other.state_;
+    if (surfaces_) surfaces_->take(*other.surfaces_);
+  }
 
   /// Whether the pair is known to be clear; clearance() then bounds its distance at the last run's end from below [m].
-  bool isKnown() const { return clearance_ != kUnknown; }
-  double clearance() const { return clearance_; }
+  bool isKnown() const { return state_.clearance != PairState::kUnknown; }
+  double clearance() const { return state_.clearance; }
 
   /// Error bound of the pair's verdict while it is clear, without the motion's error.
   ErrorBound bound() const { return {0.0, 0.0, 0.0, surfaces_ ? surfaces_->deviation() : 0.0}; }
 
  private:
-  static constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-
-  /// Where it was last not known whether one body is inside the other, and how often in a row.
-  struct Untold {
-    Isometry3d X_FP;
-    int attempts;
-  };
-
   void takeOff(double margin, PairResult& result) const;
   void forgetClearance() {
-    clearance_ = kUnknown;
-    outside_ = false;
+    state_.clearance = PairState::kUnknown;
+    state_.outside = false;
   }
   bool canBeChecked(const CycleMotion& motion, const SweptBodies& bodies, PairResult& result);
   void check(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request, PairResult& result);
@@ -141,13 +151,7 @@ class PairChecker {
   std::string why_no_force_;                     // empty if there are forces
   ErrorBound contact_bound_;                     // of field and gap
 
-  // At the last cycle's end:
-  bool outside_ = false;                            // neither body has a component wholly inside the other
-  std::optional<SurfacePair::InsidePoint> inside_;  // the surfaces are apart
-  double clearance_ = kUnknown;                     // lower bound of their distance [m]
-  Isometry3d X_FP_last_ = Isometry3d::Identity();   // valid if one of these is known
-  std::optional<Untold> untold_;
-  std::optional<Isometry3d> X_AB_as_it_came_;  // there the answer depends on the motion before
+  PairState state_;
 
   // Of this cycle:
   double travel_ = 0.0;  // upper bound of the relative displacement of the bodies' points in this cycle [m]

@@ -14,7 +14,7 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   memory_ = &memory;
   clear(result);
   if (!canBeChecked(motion, bodies, result)) return;
-  double apart = kUnknown;
+  double apart = PairState::kUnknown;
   if (balls_contain_bodies_) {
     apart = ballClearance(bodies, result.span);
     motion_error_ = 0.0;
@@ -34,16 +34,16 @@ void PairChecker::postpone(const CycleMotion& motion, const SweptBodies& bodies,
   if (balls_contain_bodies_ && apart > motion_error_ + margin) {
     remember(apart, motion.pose(pair_.body_a, result.span.last), motion.pose(pair_.body_b, result.span.last));
     setClear(apart, result);
-    result.skipped = outside_ = true;
+    result.skipped = state_.outside = true;
     return;
   }
   result.verdict = Verdict::kUncertain;
   result.postponed = true;
   result.reason = "postponed: the cycle's time was used up";
   result.error.chord += std::max(0.0, -std::max(clearance, apart));
-  clearance_ = clearance;
-  outside_ = false;
-  inside_.reset();
+  state_.clearance = clearance;
+  state_.outside = false;
+  state_.inside.reset();
 }
 
 /// Lower bound of the distance of the bodies' balls over the whole span [m]; if negative, its amount bounds their
