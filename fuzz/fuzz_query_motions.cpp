@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "motion_request.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::fuzz {
 namespace {
@@ -20,8 +21,8 @@ QueryMotions::Request requestOf(Numbers& numbers) {
   for (std::size_t i = numbers.below(4); i > 0; --i) {
     const QueryMotion::Request one = motionRequestOf(numbers);
     request.motions.emplace_back();
-    request.motions.back().joint_trajectory = one.trajectory;
-    request.motions.back().multi_dof_joint_trajectory = one.multi_dof_trajectory;
+    request.motions.back().joint_trajectory = one.joint_trajectory;
+    request.motions.back().multi_dof_joint_trajectory = one.multi_dof_joint_trajectory;
   }
   return request;
 }
@@ -29,16 +30,12 @@ QueryMotions::Request requestOf(Numbers& numbers) {
 void check(const QueryMotions::Request& request, const QueryMotions::Response& response) {
   require(response.success || !response.message.empty(), "a refusal has a reason");
   const std::size_t count = response.success ? request.motions.size() : 0;
-  require(response.verdicts.size() == count && response.error_bounds.size() == count, "a verdict for each motion");
-  require(response.bodies_a.size() == count && response.bodies_b.size() == count && response.times.size() == count,
-          "a place for each motion");
-  const std::size_t pairs = response.pair_motions.size();
-  require(response.pair_verdicts.size() == pairs && response.pairs_a.size() == pairs &&
-              response.pairs_b.size() == pairs && response.pair_times.size() == pairs &&
-              (request.list_pairs || pairs == 0),
-          "pairs are listed as a whole, if wanted");
-  for (const std::uint32_t motion : response.pair_motions) require(motion < count, "a pair is of a motion");
-  for (const double bound : response.error_bounds) require(bound >= 0.0, "bounds are numbers, none is negative");
+  require(response.motions.size() == count, "a verdict for each motion");
+  for (const CheckedMotion& motion : response.motions) {
+    require(motion.error_bound >= 0.0, "bounds are numbers, none is negative");
+    require(request.list_pairs || motion.pairs.empty(), "pairs are listed if wanted");
+    for (const CheckedPair& pair : motion.pairs) require(pair.verdict != Verdicts::CLEAR, "listed pairs are not clear");
+  }
 }
 
 }  // namespace

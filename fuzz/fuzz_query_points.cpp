@@ -21,10 +21,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   monitor.queries().answer(request, response);
   fuzz::require(response.success || !response.message.empty(), "a refusal has a reason");
   const std::size_t count = response.success ? request.points.size() : 0;
-  fuzz::require(response.distances.size() == count && response.errors.size() == count, "one answer per point");
-  for (std::size_t i = 0; i < count; ++i) {
-    fuzz::require(!std::isnan(response.distances[i]) && response.errors[i] >= 0.0, "answers are numbers");
-    fuzz::require(response.bodies[i].empty() == std::isinf(response.distances[i]), "distances are of a body");
+  fuzz::require(response.points.size() == count, "one answer per point");
+  for (const PointDistance& point : response.points) {
+    fuzz::require(!std::isnan(point.distance) && point.error >= 0.0, "answers are numbers");
+    fuzz::require(point.body.empty() == std::isinf(point.distance), "distances are of a body");
   }
   return 0;
 }

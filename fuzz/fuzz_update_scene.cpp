@@ -53,12 +53,12 @@ void addShapes(Numbers& numbers, SceneChange& change) {
 
 SceneChange changeOf(Numbers& numbers) {
   SceneChange change;
-  change.type = numbers.below(11);
-  change.object = objectOf(numbers);
+  change.operation = numbers.below(11);
+  change.id = objectOf(numbers);
   if (numbers.below(2) == 0) change.header.frame_id = nameOf(numbers);
   change.pose = poseOf(numbers);
   addShapes(numbers, change);
-  change.link = nameOf(numbers);
+  change.link_name = nameOf(numbers);
   for (std::size_t i = numbers.below(3); i > 0; --i) change.touch_links.push_back(objectOf(numbers));
   change.body_a = objectOf(numbers);
   change.body_b = objectOf(numbers);

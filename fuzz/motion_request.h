@@ -18,16 +18,16 @@ inline QueryMotion::Request motionRequestOf(Numbers& numbers) {
                : ros::Duration(static_cast<std::int32_t>(numbers.byte() * 0x01010101U), numbers.byte() * 3900000);
   };
   if (what & 2) {
-    for (std::size_t i = numbers.below(4); i > 0; --i) request.trajectory.joint_names.push_back(nameOf(numbers));
-    request.trajectory.points.resize(numbers.below(5));
-    for (auto& point : request.trajectory.points) {
+    for (std::size_t i = numbers.below(4); i > 0; --i) request.joint_trajectory.joint_names.push_back(nameOf(numbers));
+    request.joint_trajectory.points.resize(numbers.below(5));
+    for (auto& point : request.joint_trajectory.points) {
       point.time_from_start = nextTime();
-      const std::size_t count = numbers.below(16) == 0 ? numbers.below(4) : request.trajectory.joint_names.size();
+      const std::size_t count = numbers.below(16) == 0 ? numbers.below(4) : request.joint_trajectory.joint_names.size();
       for (std::size_t i = 0; i < count; ++i) point.positions.push_back(numbers.real());
     }
   }
   if (what & 4) {
-    auto& poses = request.multi_dof_trajectory;
+    auto& poses = request.multi_dof_joint_trajectory;
     poses.header.frame_id = nameOf(numbers);
     for (std::size_t i = numbers.below(3); i > 0; --i) poses.joint_names.push_back(nameOf(numbers));
     poses.points.resize(numbers.below(5));

@@ -29,7 +29,7 @@ class ChangingMap:
     arrives any more."""
 
     def __init__(self, rospy, frame):
-        from sdf_ccd.msg import ContactArray, MonitorState, Plan
+        from sdf_ccd.msg import MonitorState, Plan, Verdicts
         from std_msgs.msg import Header
         far, wall = voxels((3, -1, 0), (3.05, 1, 1)), voxels((1.5, -1, 0), (1.55, 1, 1))
         self.data = {is_there: binary_data(octree({**dict.fromkeys(wall, is_there), **dict.fromkeys(far, True)}))
@@ -54,7 +54,7 @@ class ChangingMap:
 
         def read_state(state):
             with self.changed:
-                self.unchecked = state.pairs_not_checked > 0 or state.verdict == ContactArray.NOT_CHECKED
+                self.unchecked = state.cycle.not_checked > 0 or state.verdict == Verdicts.NOT_CHECKED
                 self.changed.notify_all()
 
         rospy.Subscriber('collision_monitor/plan', Plan, read_plan, queue_size=100)
@@ -132,7 +132,7 @@ class Editors:
             service, number = rospy.ServiceProxy('collision_monitor/update_scene', UpdateScene), 0
             while not self.end:
                 number += 1
-                change = SceneChange(type=SceneChange.ADD, object='%s_%d_%d' % (kind, client, number % 8),
+                change = SceneChange(operation=SceneChange.ADD, id='%s_%d_%d' % (kind, client, number % 8),
                                      header=Header(frame_id=frame), **shapes(kind, 2 * number + client),
                                      pose=Pose(Point(10 + 2 * client, 5.0, number % 8), Quaternion(w=1)))
                 try:

@@ -11,7 +11,7 @@ from shape_msgs.msg import Mesh, MeshTriangle
 
 from monitor_case import MovingBalls, Recorder, box, pose, trajectory, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, SceneChange
+from sdf_ccd.msg import ContactArray, SceneChange, Verdicts
 from sdf_ccd.srv import QueryMotion, UpdateScene
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
@@ -27,7 +27,7 @@ def tangle(triangles, seed):
 
 
 def is_outdated(m):
-    return m.verdict == m.NOT_CHECKED and any('older than' in body.reason for body in m.unchecked)
+    return m.verdict == Verdicts.NOT_CHECKED and any('older than' in body.reason for body in m.unchecked)
 
 
 class BlockedMapTest(MasterCase):
@@ -55,7 +55,7 @@ class BlockedMapTest(MasterCase):
     def setUp(self):
         self.robot.ball = 0.0
         type(self).sent = FREE
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == m.CLEAR))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR))
 
     def assert_map_is_seen(self, answers):
         """A wall that comes is touched, and a map that does not come any more is not used."""
@@ -67,7 +67,7 @@ class BlockedMapTest(MasterCase):
         self.assertIsNotNone(self.contacts.find(is_outdated, MAX_AGE + 1.0), answers)
         type(self).sent = FREE
         self.robot.ball = 0.0
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == m.CLEAR, 5.0), answers)
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 5.0), answers)
 
     def storm(self, *clients):
         """Each client sends its changes, one after the other, until the map has been tested. Returns the answers."""
@@ -94,7 +94,7 @@ class BlockedMapTest(MasterCase):
 
     def test_1_a_request_that_takes_long(self):
         meshes = [tangle(5000, seed) for seed in range(20)]
-        answers = self.storm(lambda i: [SceneChange(type=SceneChange.ADD, object='part', pose=pose(50.0),
+        answers = self.storm(lambda i: [SceneChange(operation=SceneChange.ADD, id='part', pose=pose(50.0),
                                                     meshes=[meshes[i % len(meshes)]])])
         for success, seconds, text in answers:
             self.assertLess(seconds, REQUEST_TIME + 5.0, text)  # sending and receiving count, too
@@ -107,13 +107,13 @@ class BlockedMapTest(MasterCase):
 
     def test_3_no_query_uses_an_outdated_map(self):
         query = wait_for_service('/monitor/query_motion', QueryMotion)
-        self.assertEqual(query(trajectory('slide', [0.0, 0.3])).verdict, ContactArray.CLEAR)
+        self.assertEqual(query(trajectory('slide', [0.0, 0.3])).verdict, Verdicts.CLEAR)
         type(self).sent = None
         end = time.monotonic() + MAX_AGE + 5.0
         clear_until = 0.0
         while time.monotonic() < end:
             answer = query(trajectory('slide', [0.0, 0.3]))
-            if answer.verdict == ContactArray.CLEAR:
+            if answer.verdict == Verdicts.CLEAR:
                 clear_until = time.monotonic()
             time.sleep(0.05)
         self.assertLess(clear_until, end - 4.0)

@@ -9,7 +9,7 @@ using ChangingSceneAttachTest = ChangingSceneCase;
 TEST_F(ChangingSceneAttachTest, AttachesWhereTheObjectIs) {
   apply(box());
   SceneChange attach = change(SceneChange::ATTACH);
-  attach.link = "tip";
+  attach.link_name = "tip";
   apply(attach);
   EXPECT_EQ(body("box").frame, "tip");
   EXPECT_FALSE(body("box").is_world);
@@ -23,7 +23,7 @@ TEST_F(ChangingSceneAttachTest, AttachesWhereTheObjectIs) {
   apply(attach);
   EXPECT_EQ(reason("box", "base"), "attached, and allowed by touch_links");
   EXPECT_EQ(reason("box", "table"), "checked") << "it is neither a link nor attached";
-  EXPECT_NE(refusal(change(SceneChange::MOVE)).find("attached to tip"), std::string::npos);
+  EXPECT_EQ(refusal(change(SceneChange::MOVE)), "box is attached to tip: DETACH it first");
 
   SceneChange detach = change(SceneChange::DETACH);
   detach.header.frame_id = "belt";
@@ -38,16 +38,39 @@ TEST_F(ChangingSceneAttachTest, AttachesWhereTheObjectIs) {
 TEST_F(ChangingSceneAttachTest, AttachesWithOtherShapes) {
   apply(box());
   SceneChange attach = box();
-  attach.type = SceneChange::ATTACH;
-  attach.link = "tip";
+  attach.operation = SceneChange::ATTACH;
+  attach.link_name = "tip";
   attach.primitives[0].dimensions = {0.4, 0.4, 0.4};
-  attach.pose = geometry_msgs::Pose();
-  const Isometry3d before = body("box").X_frame_B;
+  attach.pose.position.x = 0.25;
   apply(attach);
   EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.2, 0.2, 0.2));
   EXPECT_EQ(body("box").frame, "tip");
-  // Without a pose it stays where it was: the tip is at 2.5 m.
-  EXPECT_NEAR((body("box").X_frame_B.translation() - (before.translation() - Vector3d(2.5, 0, 0))).norm(), 0.0, 1e-9);
+  EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(0.25, 0, 0)) << "in the link's frame";
+  attach.header.frame_id = "base";
+  apply(attach);
+  EXPECT_EQ(body("box").frame, "tip");
+  EXPECT_NEAR((body("box").X_frame_B.translation() - Vector3d(-2.25, 0, 0)).norm(), 0.0, 1e-9);  // the tip is at 2.5 m
+}
+
+/// A pose has one meaning: what leaves the object where it is takes none, not even a zero one.
+TEST_F(ChangingSceneAttachTest, AttachWithoutShapesAndDetachTakeNoPose) {
+  apply(box());
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link_name = "tip";
+  attach.pose.orientation.w = 1.0;
+  EXPECT_EQ(refusal(attach), "ATTACH without shapes leaves box where it is: MOVE it first, and give no pose");
+  SceneChange move = change(SceneChange::MOVE);
+  move.pose.position.x = 4.5;
+  move.pose.orientation.w = 1.0;
+  attach.pose = {};
+  apply({move, attach});
+  EXPECT_NEAR(body("box").X_frame_B.translation().x(), 2.0, 1e-9);
+  SceneChange detach = change(SceneChange::DETACH);
+  detach.pose.position.x = 1.0;
+  EXPECT_EQ(refusal(detach), "DETACH leaves box where it is: MOVE it first, and give no pose");
+  apply({change(SceneChange::DETACH), move});
+  EXPECT_EQ(body("box").frame, "base");
+  EXPECT_EQ(body("box").X_frame_B.translation().x(), 4.5);
 }
 
 TEST_F(ChangingSceneAttachTest, AttachesAndDetachesByTransformsOfOneTime) {
@@ -57,7 +80,7 @@ TEST_F(ChangingSceneAttachTest, AttachesAndDetachesByTransformsOfOneTime) {
   apply(added);
   history_.add(message({stampedTransform("base", "belt", kNow + 0.1, 9.0)}), false);
   SceneChange attach = change(SceneChange::ATTACH);
-  attach.link = "arm";
+  attach.link_name = "arm";
   apply(attach);
   EXPECT_NEAR(body("box").X_frame_B.translation().x(), 5.0, 1e-9);  // 7 - 2, both at kNow
   SceneChange detach = change(SceneChange::DETACH);
@@ -87,7 +110,7 @@ TEST_F(ChangingSceneAttachTest, ATileIsJudgedAsItsObjectAsLongAsThatIsThere) {
   setTiles();
   EXPECT_FALSE(isChecked());
   SceneChange attach = change(SceneChange::ATTACH);
-  attach.link = "tip";
+  attach.link_name = "tip";
   apply(attach);
   EXPECT_FALSE(isChecked()) << "it is held where it was";
   apply(change(SceneChange::DETACH));
@@ -96,23 +119,30 @@ TEST_F(ChangingSceneAttachTest, ATileIsJudgedAsItsObjectAsLongAsThatIsThere) {
   EXPECT_FALSE(isChecked());
 
   SceneChange move = box();
-  move.type = SceneChange::MOVE;
+  move.operation = SceneChange::MOVE;
   apply(move);
   EXPECT_TRUE(isChecked()) << "moved";
   setTiles();
   apply(box());
   EXPECT_TRUE(isChecked()) << "replaced";
   setTiles();
-  attach.pose = box().pose;
-  apply(attach);
+  SceneChange elsewhere = box();
+  elsewhere.operation = SceneChange::ATTACH;
+  elsewhere.link_name = "tip";
+  apply(elsewhere);
   EXPECT_TRUE(isChecked()) << "attached elsewhere";
+  setTiles();
+  elsewhere.operation = SceneChange::APPEND;
+  elsewhere.pose = {};
+  apply(elsewhere);
+  EXPECT_TRUE(isChecked()) << "has got shapes";
   setTiles();
   apply(change(SceneChange::REMOVE));
   EXPECT_TRUE(isChecked()) << "removed";
   apply(box());
   EXPECT_TRUE(isChecked()) << "another one of its name";
   setTiles();
-  apply(change(SceneChange::CLEAR, ""));
+  apply(change(SceneChange::REMOVE, "*"));
   EXPECT_TRUE(isChecked()) << "all are removed";
 }
 
@@ -124,12 +154,12 @@ TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
   tile.geometry.push_back({Primitive(Sphere{0.1}), Isometry3d::Identity(), "sphere"});
   scene_->setTiles({tile}, {}, nullptr);
   SceneChange attach = box();
-  attach.type = SceneChange::ATTACH;
-  attach.link = "tip";
+  attach.operation = SceneChange::ATTACH;
+  attach.link_name = "tip";
   attach.touch_links = {"*"};
   SceneChange other = box("other");
-  other.type = SceneChange::ATTACH;
-  other.link = "base";
+  other.operation = SceneChange::ATTACH;
+  other.link_name = "base";
   apply({attach, other, box("crate")});
   EXPECT_EQ(reason("box", "base"), "attached, and allowed by touch_links");
   EXPECT_EQ(reason("other", "box"), "attached, and allowed by touch_links");
@@ -140,12 +170,12 @@ TEST_F(ChangingSceneAttachTest, WhatMayTouchAllLinksMayNotTouchTheWorld) {
 
 TEST_F(ChangingSceneAttachTest, AttachesWhatIsNotThereYet) {
   SceneChange attach = box();
-  attach.type = SceneChange::ATTACH;
-  attach.link = "tip";
+  attach.operation = SceneChange::ATTACH;
+  attach.link_name = "tip";
   apply(attach);
   EXPECT_EQ(body("box").frame, "tip");
   EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
-  attach.link = "nowhere";
+  attach.link_name = "nowhere";
   EXPECT_EQ(refusal(attach), "the robot has no link nowhere");
 }
 

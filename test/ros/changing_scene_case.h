@@ -68,8 +68,8 @@ class ChangingSceneCase : public ::testing::Test {
 
   static SceneChange change(int type, const std::string& object = "box") {
     SceneChange made;
-    made.type = static_cast<std::uint8_t>(type);
-    made.object = object;
+    made.operation = static_cast<std::uint8_t>(type);
+    made.id = object;
     return made;
   }
   static SceneChange box(const std::string& name = "box") {

@@ -14,15 +14,22 @@ namespace sdf_ccd::changing_scene_files_test {
 
 using namespace test;
 
-using ChangingSceneFilesTest = ChangingSceneCase;
+class ChangingSceneFilesTest : public ChangingSceneCase {
+ protected:
+  static SceneChange posed(const std::string& name) {
+    SceneChange made = change(SceneChange::ADD, name);
+    made.pose.orientation.w = 1.0;
+    return made;
+  }
+};
 
 TEST_F(ChangingSceneFilesTest, TrianglesOfMeshFilesCountAgainstTheLimit) {
   test::writeText(folder_ / "ball.off", test::off(test::icosphere(0.1, 1)));  // 80 triangles
-  SceneChange ball = change(SceneChange::ADD, "ball");
+  SceneChange ball = posed("ball");
   ball.mesh_resources = {(folder_ / "ball.off").string()};
   limits_.triangles = 160;
   SceneChange other = ball;
-  other.object = "other";
+  other.id = "other";
   apply({ball, other});
   limits_.triangles = 159;
   const std::string refused = failureOf<std::exception>([&] { apply({ball, other}); });
@@ -34,8 +41,8 @@ TEST_F(ChangingSceneFilesTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved
     EXPECT_EQ(refusal(box(name)).find("object '" + std::string(name) + "': a name must not be empty, begin or end"),
               0u);
     SceneChange attach = box(name);
-    attach.type = SceneChange::ATTACH;
-    attach.link = "tool";
+    attach.operation = SceneChange::ATTACH;
+    attach.link_name = "tool";
     EXPECT_NE(refusal(attach), "") << name;
   }
   EXPECT_EQ(refusal(box("a b")), "");
@@ -49,7 +56,7 @@ TEST_F(ChangingSceneFilesTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved
 }
 
 TEST_F(ChangingSceneFilesTest, ReadsNoFilesButThoseBelowTheRoots) {
-  SceneChange bad = change(SceneChange::ADD);
+  SceneChange bad = posed("box");
   for (const std::string& uri : {std::string("file:///etc/passwd"), std::string("/etc/passwd"),
                                  folder_.string() + "/../passwd", std::string("mesh.stl")}) {
     bad.mesh_resources = {uri};
@@ -63,7 +70,7 @@ TEST_F(ChangingSceneFilesTest, ReadsNoFilesButThoseBelowTheRoots) {
   EXPECT_NE(refusal(bad).find("resource_roots"), std::string::npos);
   std::ofstream(folder_ / "tetra.off")
       << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
-  SceneChange good = change(SceneChange::ADD);
+  SceneChange good = posed("box");
   good.mesh_resources = {"file://" + (folder_ / "tetra.off").string()};
   EXPECT_EQ(refusal(good), "");
 }
@@ -77,7 +84,7 @@ TEST_F(ChangingSceneFilesTest, NoSpellingLeadsOutOfTheRoots) {
   const std::string out = "%2e%2e/" + elsewhere.string().substr(folder_.string().rfind('/') + 1) + "/secret.off";
   std::string escaped = out;
   escaped.replace(escaped.find("/"), 1, "%2f");
-  SceneChange bad = change(SceneChange::ADD);
+  SceneChange bad = posed("box");
   for (const std::string& name : {out, escaped, std::string("LINK.off"), std::string("l%69nk.off")}) {
     for (const char* scheme : {"", "file://"}) {
       bad.mesh_resources = {scheme + (folder_ / name).string()};
@@ -178,7 +185,7 @@ TEST_F(ChangingSceneFilesTest, WhatIsWrittenIsReadAgain) {
   SceneChange load = change(SceneChange::LOAD, "");
   load.file = (folder_ / "world.scene").string();
   const BodyDescription before = body("all");
-  apply({change(SceneChange::CLEAR, ""), load});
+  apply({change(SceneChange::REMOVE, "*"), load});
   const BodyDescription after = body("all");
   EXPECT_EQ(after.frame, "base");
   EXPECT_NEAR((after.X_frame_B.translation() - Vector3d(10, 0, 0)).norm(), 0.0, 1e-12);

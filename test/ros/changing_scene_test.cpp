@@ -37,7 +37,7 @@ TEST_F(ChangingSceneTest, AddsMovesAndRemoves) {
   EXPECT_EQ(refusal(change(SceneChange::REMOVE)), "there is no object box");
   apply({box("a1"), box("a2"), box("b"), change(SceneChange::REMOVE, "a*")});
   EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"b", "table"}));
-  apply(change(SceneChange::CLEAR));
+  apply(change(SceneChange::REMOVE, "*"));
   EXPECT_TRUE(scene_->objects().empty());
 }
 
@@ -148,8 +148,9 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   EXPECT_NE(refusal(bad), "");
   bad = box();
   bad.pose.orientation.w = 0.5;
-  EXPECT_EQ(refusal(bad), "the pose has an orientation that is not a unit quaternion");
+  EXPECT_EQ(refusal(bad), "the pose: orientation is not a unit quaternion");
   bad = change(SceneChange::ADD);
+  bad.pose.orientation.w = 1.0;
   EXPECT_EQ(refusal(bad), "object box has no shape");
   bad.meshes.resize(1);
   EXPECT_EQ(refusal(bad), "meshes[0] has no triangles");
@@ -157,7 +158,7 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   bad.meshes[0].triangles.resize(1);
   bad.meshes[0].triangles[0].vertex_indices = {{0, 1, 3}};
   EXPECT_EQ(refusal(bad), "meshes[0] has a triangle with vertex index 3, but only 3 vertices");
-  EXPECT_EQ(refusal(change(77)), "unknown type 77, see SceneChange.msg");
+  EXPECT_EQ(refusal(change(77)), "unknown operation 77, see SceneChange.msg");
   EXPECT_NE(refusal(rule(SceneChange::ALLOW, "", "a")), "");
   for (int i = 0; i < 1000; ++i) apply(rule(SceneChange::ALLOW, "x" + std::to_string(i), "y"));
   EXPECT_NE(refusal(rule(SceneChange::ALLOW, "z", "y")), "");
@@ -167,12 +168,88 @@ TEST_F(ChangingSceneTest, RefusesWhatCannotBe) {
   EXPECT_THROW(description(), std::length_error);
 }
 
+/// As in a message that was not filled in, or whose orientation was forgotten.
+TEST_F(ChangingSceneTest, AQuaternionOfZerosIsRefusedWithWhatToWrite) {
+  const std::string what = "orientation is a quaternion of zeros: write orientation.w: 1";
+  for (const int operation : {SceneChange::ADD, SceneChange::MOVE, SceneChange::ATTACH}) {
+    SceneChange bad = operation == SceneChange::MOVE ? change(SceneChange::MOVE, "table") : box();
+    bad.operation = static_cast<std::uint8_t>(operation);
+    bad.link_name = "arm";
+    bad.pose.orientation.w = 0.0;
+    EXPECT_EQ(refusal(bad), "the pose: " + what);
+    bad.pose = {};
+    EXPECT_EQ(refusal(bad), "the pose: " + what);
+  }
+  SceneChange bad = box();
+  bad.primitive_poses.resize(1);
+  EXPECT_EQ(refusal(bad), "the pose of primitives[0]: " + what);
+  bad.primitive_poses[0].orientation.w = 1.0;
+  EXPECT_EQ(refusal(bad), "");
+  SceneChange mesh = change(SceneChange::ADD);
+  mesh.pose.orientation.w = 1.0;
+  mesh.mesh_resources = {"package://nothing/a.stl"};
+  mesh.mesh_resource_poses.resize(1);
+  EXPECT_EQ(refusal(mesh), "the pose of mesh_resources[0]: " + what);
+  mesh.mesh_resource_poses.clear();
+  mesh.mesh_resource_scales.resize(1);
+  EXPECT_EQ(refusal(mesh), "mesh_resources[0]: a component of the scale is zero, not finite or too large");
+}
+
+TEST_F(ChangingSceneTest, ListsThatDoNotAgreeAreRefused) {
+  SceneChange bad = box();
+  bad.primitive_poses.resize(2);
+  EXPECT_EQ(refusal(bad), "2 poses for 1 primitives");
+  bad.primitive_poses.clear();
+  bad.plane_poses.resize(1);
+  EXPECT_EQ(refusal(bad), "1 poses for 0 planes");
+  bad.plane_poses.clear();
+  bad.mesh_poses.resize(1);
+  EXPECT_EQ(refusal(bad), "1 poses for 0 meshes");
+  bad.mesh_poses.clear();
+  bad.mesh_resource_scales.resize(1);
+  EXPECT_EQ(refusal(bad), "mesh_resource_scales must be empty, or have one scale per mesh_resource");
+}
+
+TEST_F(ChangingSceneTest, AppendsShapesToAnObjectWhereItIs) {
+  SceneChange append = change(SceneChange::APPEND);
+  append.primitives.resize(1);
+  append.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  append.primitives[0].dimensions = {0.5};
+  append.primitive_poses.resize(1);
+  append.primitive_poses[0].position.z = 2.0;
+  append.primitive_poses[0].orientation.w = 1.0;
+  EXPECT_EQ(refusal(append), "there is no object box");
+  apply({box(), append});
+  ASSERT_EQ(body("box").geometry.size(), 2u);
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(body("box").geometry[1].shape)).radius, 0.5);
+  EXPECT_EQ(body("box").geometry[1].X_BG.translation(), Vector3d(0, 0, 2));
+  EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
+
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link_name = "tip";
+  apply({attach, append});
+  ASSERT_EQ(body("box").geometry.size(), 3u);
+  EXPECT_EQ(body("box").frame, "tip") << "it stays attached";
+  EXPECT_EQ(reason("box", "tool"), "rigidly joined");
+
+  SceneChange bad = append;
+  bad.pose.position.x = 1.0;
+  EXPECT_EQ(refusal(bad), "APPEND leaves box where it is: MOVE it first, and give no pose");
+  bad = change(SceneChange::APPEND);
+  EXPECT_EQ(refusal(bad), "object box has no shape");
+  bad.octomap_file = (folder_ / "map.bt").string();
+  EXPECT_NE(refusal(bad).find("only shape of its object"), std::string::npos);
+  limits_.shapes = 3;
+  EXPECT_EQ(refusal(append), "box would have more than 3 shapes");
+}
+
 TEST_F(ChangingSceneTest, NamesHoldNoWildcards) {
   for (const char* name : {"*", "bo?", "a*"}) {
     EXPECT_NE(refusal(box(name)).find("must not contain * or ?"), std::string::npos) << name;
     SceneChange attach = box(name);
-    attach.type = SceneChange::ATTACH;
-    attach.link = "tool";
+    attach.operation = SceneChange::ATTACH;
+    attach.link_name = "tool";
     EXPECT_NE(refusal(attach).find("must not contain * or ?"), std::string::npos) << name;
   }
   apply({box(), change(SceneChange::REMOVE, "bo?")});
@@ -206,8 +283,8 @@ TEST_F(ChangingSceneTest, AMapPaysForNoPatternAnew) {
     changes.push_back(box(name + number));
     changes.push_back(rule(SceneChange::ALLOW, pattern + number, pattern));
     changes.push_back(box(name + "held" + number));
-    changes.back().type = SceneChange::ATTACH;
-    changes.back().link = "arm";
+    changes.back().operation = SceneChange::ATTACH;
+    changes.back().link_name = "arm";
     changes.back().touch_links.assign(10, pattern + number);
   }
   apply(changes);

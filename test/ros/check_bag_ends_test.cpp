@@ -12,6 +12,7 @@
 #include "ros/check_bag_case.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::check_bag_ends_test {
 
@@ -132,7 +133,7 @@ TEST_F(CheckBag, TransformsOnOtherTopicsAreNamed) {
 
 TEST_F(CheckBag, AMessageThatHoldsNoVerdictIsRefused) {
   ContactArray message;
-  message.cycle_start = ros::Time(kBegin);
+  message.cycle.start = ros::Time(kBegin);
   message.header.stamp = ros::Time(kBegin + 1.0);
   const auto write = [&](const char* name) {
     rosbag::Bag(path(name).string(), rosbag::bagmode::Write).write("/contacts", ros::Time(kBegin + 1.0), message);
@@ -140,10 +141,32 @@ TEST_F(CheckBag, AMessageThatHoldsNoVerdictIsRefused) {
   message.verdict = 7;
   write("seven.bag");
   expectRefused("plot-bag seven.bag --out no", "a message about contacts is damaged: verdict 7");
-  message.verdict = ContactArray::CLEAR;
-  message.error_bound = std::nan("");
+  message.verdict = Verdicts::CLEAR;
+  message.cycle.error_bound.total = std::nan("");
   write("nan.bag");
   expectRefused("plot-bag nan.bag --out no", "error bound nan");
+}
+
+/// As recorded by another version. What check-bag reads has not changed: such a bag can still be checked.
+TEST_F(CheckBag, ABagOfMessagesOfAnotherDefinitionIsNamed) {
+  const auto header = [](const std::string& type) {
+    return boost::make_shared<ros::M_string>(ros::M_string{
+        {"type", type}, {"md5sum", "0123456789abcdef0123456789abcdef"}, {"message_definition", "uint8 verdict"}});
+  };
+  const auto writeTo = [&](const std::string& bag, const std::string& topic, const std::string& type) {
+    rosbag::Bag(path(bag).string(), rosbag::bagmode::Append)
+        .write(topic, ros::Time(kBegin), ContactArray(), header(type));
+  };
+  std::filesystem::copy_file(path("arm.bag"), path("old.bag"));
+  writeTo("old.bag", "/collision_monitor/contacts", "sdf_ccd/ContactArray");
+  expectRefused("plot-bag old.bag --out no",
+                "old.bag: /collision_monitor/contacts holds sdf_ccd/ContactArray of another definition, "
+                "0123456789abcdef0123456789abcdef instead of " +
+                    std::string(ros::message_traits::md5sum<ContactArray>()) +
+                    ": it was recorded with another version of sdf_ccd: plot it with that one, or make new contacts");
+  EXPECT_LE(run(check("old.bag", "checked")).exit_code, kPartlyDone);
+  writeTo("old.bag", "/tf", "tf2_msgs/TFMessage");
+  expectRefused(check("old.bag", "no"), "old.bag: /tf holds tf2_msgs/TFMessage of another definition");
 }
 
 TEST_F(CheckBag, ABagThatLastsLongerThanADurationIsNamed) {

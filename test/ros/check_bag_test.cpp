@@ -13,6 +13,7 @@
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::check_bag_test {
 
@@ -115,8 +116,8 @@ TEST_F(CheckBag, WritesABagThatHoldsWhatTheMonitorPublishes) {
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     ++counts[message.getTopic()];
     if (const auto state = message.instantiate<MonitorState>()) {
-      EXPECT_GT(state->run_time, 0.0);
-      EXPECT_GT(state->error_bound, 0.0);
+      EXPECT_GT(state->cycle.run_time, 0.0);
+      EXPECT_GT(state->cycle.error_bound.total, 0.0);
       EXPECT_EQ(state->header.frame_id, "base");
     }
   }
@@ -199,18 +200,18 @@ TEST_F(CheckBag, TfAndRatesAndPlotsTellTheSameContacts) {
 /// A monitor's message about one contact, as known until `end`.
 ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
   ContactArray message;
-  message.cycle_start = ros::Time(end - 0.1);
-  message.header.stamp = message.complete_until = ros::Time(end);
-  message.verdict = ContactArray::CONTACT;
-  message.checked = 1;
-  message.error_bound = 0.001;
+  message.cycle.start = ros::Time(end - 0.1);
+  message.header.stamp = message.cycle.complete_until = ros::Time(end);
+  message.verdict = Verdicts::CONTACT;
+  message.cycle.checked = 1;
+  message.cycle.error_bound.total = 0.001;
   message.contacts.resize(1);
   Contact& contact = message.contacts[0];
   contact.id = id;
   contact.begins = begins;
   contact.body_a = "a";
   contact.body_b = "b";
-  contact.verdict = Contact::CONTACT;
+  contact.verdict = Verdicts::CONTACT;
   contact.begin = ros::Time(begin);
   contact.end = ros::Time(end);
   return message;
@@ -354,12 +355,12 @@ TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
   rosbag::Bag bag(path("made/checked.bag").string());
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     if (const auto state = message.instantiate<MonitorState>()) {
-      not_checked += state->verdict == MonitorState::NOT_CHECKED && state->reason == "no new transforms";
+      not_checked += state->verdict == Verdicts::NOT_CHECKED && state->reason == "no new transforms";
     }
     const auto contacts = message.instantiate<ContactArray>();
-    if (!contacts || contacts->cycle_start != contacts->header.stamp) continue;
+    if (!contacts || contacts->cycle.start != contacts->header.stamp) continue;
     ++silent;
-    EXPECT_EQ(contacts->verdict, ContactArray::NOT_CHECKED);
+    EXPECT_EQ(contacts->verdict, Verdicts::NOT_CHECKED);
     EXPECT_EQ(contacts->reason, "no new transforms");
     EXPECT_TRUE(contacts->pairs.empty());
     EXPECT_NEAR(contacts->header.stamp.toSec(), kBegin + 4.0, 2.0 * kSamplePeriod);

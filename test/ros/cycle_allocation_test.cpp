@@ -19,6 +19,7 @@
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
+#include "sdf_ccd/Verdicts.h"
 #include "thread_allocations.h"
 
 namespace sdf_ccd::cycle_allocation_test {
@@ -42,7 +43,7 @@ class CycleAllocationTest : public ::testing::Test {
  protected:
   CycleAllocationTest() {
     subscribe<ContactArray>("contacts", [this](const ContactArray& contacts) {
-      contacts_ += contacts.verdict == ContactArray::CONTACT && !contacts.pairs.empty();
+      contacts_ += contacts.verdict == Verdicts::CONTACT && !contacts.pairs.empty();
     });
     subscribe<MonitorState>("state", [](const MonitorState&) {});
     subscribe<DistanceArray>("distances", [](const DistanceArray&) {});

@@ -10,6 +10,7 @@
 #include "ros/loop_case.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf_messages.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::cycle_messages_test {
 
@@ -45,10 +46,10 @@ TEST_F(CycleMessagesTest, ACheckThatFailsIsToldOfItsWholeTime) {
     sendFoot(now);
     ASSERT_EQ(step(now), i == 0 ? Step::kWaiting : Step::kCycle);
     if (i == 0) continue;
-    EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
-    EXPECT_EQ(last().not_checked, 3u);
+    EXPECT_EQ(last().verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(last().cycle.not_checked, 3u);
     if (!end.isZero()) {
-      EXPECT_EQ(last().cycle_start, end);
+      EXPECT_EQ(last().cycle.start, end);
     }
     end = last().header.stamp;
     ASSERT_EQ(last().unchecked.size(), 3u);
@@ -72,7 +73,7 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
     sendHand(10.0 + i * kPeriod, kPlate - kRadius);
     step(10.0 + i * kPeriod);
   }
-  ASSERT_EQ(last().verdict, ContactArray::CONTACT) << last().reason;
+  ASSERT_EQ(last().verdict, Verdicts::CONTACT) << last().reason;
   const geometry_msgs::WrenchStamped wrench = toWrenchStamped(*loop_, 0);
   EXPECT_EQ(wrench.header.frame_id, "hand");
   const double force = wrench.wrench.force.x;
@@ -94,17 +95,19 @@ TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
   }
   ASSERT_GE(said_.size(), 2u);
   for (const ContactArray& said : said_) {
-    EXPECT_EQ(said.verdict, ContactArray::NOT_CHECKED);
-    EXPECT_EQ(said.not_checked, 3u);
+    EXPECT_EQ(said.verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(said.cycle.not_checked, 3u);
     EXPECT_TRUE(said.pairs.empty());
     ASSERT_EQ(said.unchecked.size(), 2u);
     EXPECT_EQ(said.unchecked[0].body + " " + said.unchecked[1].body, "foot plate");
     EXPECT_EQ(said.unchecked[0].reason, scene->bodies[1].failure);
     EXPECT_EQ(said.unchecked[0].pairs, 2u);
-    EXPECT_EQ(said.unchecked[0].since, said.cycle_start);
+    EXPECT_EQ(said.unchecked[0].since, said.cycle.start);
     EXPECT_NE(said.reason.find("3 pairs could not be checked, for example hand - foot: "), std::string::npos);
   }
-  EXPECT_EQ(toMonitorState(*loop_, ros::Time(10.2)).missing.size(), 2u);
+  const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
+  EXPECT_EQ(state.unchecked, last().unchecked);
+  EXPECT_EQ(state.cycle, last().cycle);
 }
 
 TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
@@ -121,15 +124,15 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
   }
   const ContactArray said = toContactArray(*loop_);
   ASSERT_EQ(said.pairs.size(), 1u);
-  EXPECT_EQ(said.verdict, ContactArray::CONTACT);
-  EXPECT_EQ(said.incomplete, 1u);
+  EXPECT_EQ(said.verdict, Verdicts::CONTACT);
+  EXPECT_EQ(said.cycle.incomplete, 1u);
   EXPECT_TRUE(said.pairs[0].incomplete);
   EXPECT_NE(said.pairs[0].reason.find("incomplete"), std::string::npos);
   EXPECT_TRUE(std::isnan(said.pairs[0].wrench_on_a.force.x));
   EXPECT_GE(said.pairs[0].depth + said.pairs[0].deepest.depth_error, 0.1);
   EXPECT_TRUE(std::isnan(toWrenchStamped(*loop_, 0).wrench.force.x));
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
-  EXPECT_EQ(state.pairs_incomplete, 1u);
+  EXPECT_EQ(state.cycle.incomplete, 1u);
   EXPECT_TRUE(std::isnan(state.max_force) && std::isnan(state.max_depth));
 }
 
@@ -143,7 +146,7 @@ TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
     sendFoot(10.0 + i * kPeriod, 0.15);
     step(10.0 + i * kPeriod);
   }
-  ASSERT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+  ASSERT_EQ(last().verdict, Verdicts::NOT_CHECKED);
   ASSERT_EQ(last().pairs.size(), 1u);
   ASSERT_NE(last().pairs[0].reason, "");
   EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
@@ -162,7 +165,7 @@ TEST_F(CycleMessagesTest, ValuesThatWereNotComputedAreNoNumbers) {
     loop_->step(ros::Time(10.0 + i * kPeriod), nothing);
   }
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
-  EXPECT_EQ(state.verdict, MonitorState::CONTACT);
+  EXPECT_EQ(state.verdict, Verdicts::CONTACT);
   EXPECT_TRUE(std::isnan(state.max_depth) && std::isnan(state.max_force) && std::isnan(state.min_clearance));
 }
 
@@ -177,7 +180,7 @@ TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
     EXPECT_EQ(state.contacts, last().contacts.size());
     EXPECT_EQ(state.max_depth > 0.0, !last().pairs.empty());
     EXPECT_EQ(state.max_force > 0.0, !last().pairs.empty());
-    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == ContactArray::CLEAR);
+    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == Verdicts::CLEAR);
     told.insert(told.end(), last().contacts.begin(), last().contacts.end());
   }
   ASSERT_GT(told.size(), 3u);
@@ -190,7 +193,7 @@ TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
   }
   EXPECT_NEAR((told.back().begin - ros::Time(10.0)).toSec(), (kPlate - kPlateHalf - kRadius) / 0.03 * kPeriod, 1e-3);
   EXPECT_NEAR((told.back().end - ros::Time(10.0)).toSec(), (kPlate + kPlateHalf + kRadius) / 0.03 * kPeriod, 1e-3);
-  EXPECT_EQ(told.back().verdict, Contact::CONTACT);
+  EXPECT_EQ(told.back().verdict, Verdicts::CONTACT);
   EXPECT_GT(told.back().max_force, 0.0);
   EXPECT_EQ(told.back().cycles, told.size());
 }

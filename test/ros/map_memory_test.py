@@ -13,7 +13,7 @@ from std_srvs.srv import Empty
 
 from monitor_case import MovingBalls, Recorder, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, SceneChange
+from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdicts
 from sdf_ccd.srv import UpdateScene
 from voxel_maps import Octomap, message, touches_map
 
@@ -65,7 +65,7 @@ class MapMemoryTest(MasterCase):
         """The map anew, with the ball beside it."""
         self.robot.ball = 0.0
         type(self).voxels = block(-4, 20, False)
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == m.CLEAR, 20.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 20.0))
         time.sleep(0.3)
 
     def show(self, voxels):
@@ -96,11 +96,11 @@ class MapMemoryTest(MasterCase):
         time.sleep(0.8)
         self.assertTrue(touches_map(self.contacts.find_new(lambda m: True)))
         self.show({})
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == m.CLEAR, 10.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
 
     def test_what_becomes_occupied_beside_the_robot_is_its_picture(self):
         self.show(block(-1, 1))
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == m.CLEAR, 10.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
         self.assertEqual(self.states.find_new(lambda m: True).map_voxels_unproven, 0)
 
     def test_what_the_first_map_shows_beside_the_robot_is_counted(self):
@@ -129,25 +129,25 @@ class MapMemoryTest(MasterCase):
 
     def test_voxels_of_a_known_object_follow_its_rule(self):
         self.show(WALL)
-        cup = SceneChange(type=SceneChange.ADD, object='cup',
+        cup = SceneChange(operation=SceneChange.ADD, id='cup',
                           pose=Pose(position=Point(0.4, 0.0, 0.0), orientation=Quaternion(0, 0, 0, 1)),
                           primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=(0.2, 0.1, 0.1))])
-        allow = SceneChange(type=SceneChange.ALLOW, body_a='ball', body_b='cup')
+        allow = SceneChange(operation=SceneChange.ALLOW, body_a='ball', body_b='cup')
         self.assertTrue(self.update(changes=[cup, allow]).success)
         time.sleep(0.5)
         self.contacts.clear()
         self.creep(0.2, 0.4, 0.4)
         time.sleep(0.5)
-        self.assertFalse([m.verdict for m in self.contacts.messages if m.verdict != m.CLEAR])
+        self.assertFalse([m.verdict for m in self.contacts.messages if m.verdict != Verdicts.CLEAR])
         # Without the rule it is the cup that the ball touches.
-        check = SceneChange(type=SceneChange.CHECK, body_a='ball', body_b='cup')
+        check = SceneChange(operation=SceneChange.CHECK, body_a='ball', body_b='cup')
         self.assertTrue(self.update(changes=[check]).success)
-        found = self.contacts.find_new(lambda m: m.verdict == m.CONTACT, 10.0)
+        found = self.contacts.find_new(lambda m: m.verdict == Verdicts.CONTACT, 10.0)
         self.assertIsNotNone(found)
         self.assertFalse(touches_map(found))
         # Without the cup, the voxels are an obstacle in the same version.
-        answer = self.update(changes=[SceneChange(type=SceneChange.REMOVE, object='cup'),
-                                      SceneChange(type=SceneChange.FORGET_RULES)])
+        answer = self.update(changes=[SceneChange(operation=SceneChange.REMOVE, id='cup'),
+                                      SceneChange(operation=SceneChange.FORGET_RULES)])
         self.assertTrue(answer.success)
         # The next version may follow before a cycle has used that one.
         first = self.contacts.find(lambda m: m.scene_version >= answer.scene_version and m.pairs)

@@ -12,7 +12,7 @@ import rospy
 import rostest
 
 from monitor_case import MovingBalls, Recorder, box, pose, touches, wait_for_service
-from sdf_ccd.msg import ContactArray, Plan, SceneChange
+from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdicts
 from sdf_ccd.srv import GetPlan, UpdateScene
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
@@ -25,7 +25,7 @@ class MapTest(unittest.TestCase):
         cls.contacts = Recorder('/collision_monitor/contacts', ContactArray, 8.0)
         cls.get_plan = wait_for_service('/collision_monitor/get_plan', GetPlan)
         assert cls.contacts.find_new(
-            lambda m: m.complete_until == m.header.stamp and m.reason == '' or m.pairs == [], 60.0)
+            lambda m: m.cycle.complete_until == m.header.stamp and m.reason == '' or m.pairs == [], 60.0)
 
     def version(self):
         return self.get_plan().plan.scene_version
@@ -51,7 +51,7 @@ class MapTest(unittest.TestCase):
         time.sleep(0.3)
 
     def find_clear(self, version):
-        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == m.CLEAR)
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdicts.CLEAR)
 
     def find_touching_map(self):
         return self.contacts.find_new(touches_map)
@@ -127,7 +127,7 @@ class MapTest(unittest.TestCase):
         self.assertTrue(update(changes=[box('octomap', pose(0.0, 0.03))]).success)
         self.assertIsNotNone(self.contacts.find_new(lambda m: touches(m, 'ball', 'octomap')))
         touching = self.contacts.messages[-1].contacts[0]
-        self.assertTrue(update(changes=[SceneChange(type=SceneChange.REMOVE, object='octomap')]).success)
+        self.assertTrue(update(changes=[SceneChange(operation=SceneChange.REMOVE, id='octomap')]).success)
         self.send(self.map_of(voxels_near(0.9, 0.0, 0.0, 0.05)))
         self.robot.ball = 0.9
         found = self.contacts.find_new(lambda m: touches_map(m) and m.contacts)

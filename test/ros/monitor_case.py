@@ -10,7 +10,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from sdf_ccd.msg import ContactArray, Plan, SceneChange
+from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdicts
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest
 
 RADIUS, PLATE = 0.02, 0.4995         # of the balls of sliders.urdf, and x of the plate's face [m]
@@ -108,7 +108,7 @@ def pose(x=0.0, y=0.0, z=0.0):
 
 def box(name, where, size=(0.1, 0.1, 0.1), frame=''):
     """A change that adds a box."""
-    return SceneChange(type=SceneChange.ADD, object=name, pose=where, header=Header(frame_id=frame),
+    return SceneChange(operation=SceneChange.ADD, id=name, pose=where, header=Header(frame_id=frame),
                        primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=size)])
 
 
@@ -132,7 +132,7 @@ def trajectory(joint, positions):
     """A request to query_motion, with one second between positions."""
     points = [JointTrajectoryPoint(positions=[p], time_from_start=rospy.Duration(float(i)))
               for i, p in enumerate(positions)]
-    return QueryMotionRequest(trajectory=JointTrajectory(joint_names=[joint], points=points))
+    return QueryMotionRequest(joint_trajectory=JointTrajectory(joint_names=[joint], points=points))
 
 
 class MonitorCase(unittest.TestCase):
@@ -146,7 +146,7 @@ class MonitorCase(unittest.TestCase):
         cls.stamp = rospy.Time.now()
         assert Recorder('/collision_monitor/plan', Plan).find(lambda m: 'plate' in m.names, 60.0), 'no plan'
         end = time.monotonic() + 30.0
-        while cls.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 0.0) is None:
+        while cls.contacts.find(lambda m: m.verdict == Verdicts.CLEAR, 0.0) is None:
             assert time.monotonic() < end, 'no complete cycle'
             cls.send(0.0)
 

@@ -12,6 +12,7 @@
 #include "ros/loop_case.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::monitor_loop_test {
 
@@ -19,8 +20,8 @@ using namespace test;
 
 /// Whether a message reports that there was no contact at a time.
 bool saysClearAt(const ContactArray& contacts, double time) {
-  return contacts.verdict == ContactArray::CLEAR && contacts.cycle_start.toSec() <= time &&
-         time <= contacts.complete_until.toSec();
+  return contacts.verdict == Verdicts::CLEAR && contacts.cycle.start.toSec() <= time &&
+         time <= contacts.cycle.complete_until.toSec();
 }
 
 TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
@@ -33,11 +34,11 @@ TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
     step(now);
     if (i > 20 && i % 5 == 3) crossing = now - 0.5 * kPeriod;
     if (crossing > 0.0 && i % 5 == 3) {
-      EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
+      EXPECT_EQ(last().verdict, Verdicts::CONTACT) << i;
     }
   }
-  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 1);  // where it changes
-  EXPECT_GE(verdicts(ContactArray::CONTACT), 8);
+  EXPECT_EQ(verdicts(Verdicts::NOT_CHECKED), 1);  // where it changes
+  EXPECT_GE(verdicts(Verdicts::CONTACT), 8);
   for (const ContactArray& said : said_) EXPECT_FALSE(saysClearAt(said, crossing));
 }
 
@@ -49,10 +50,10 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
     if (i == 25) sendHand(now, kPlate - kRadius, true);
     step(now);
     if (i == 19) {
-      EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+      EXPECT_EQ(last().verdict, Verdicts::CLEAR);
     }
     if (i > 20 && i < 25) {
-      EXPECT_EQ(last().verdict, ContactArray::NOT_CHECKED);
+      EXPECT_EQ(last().verdict, Verdicts::NOT_CHECKED);
     }
     if (i == 25) {
       EXPECT_EQ(last().pairs.size(), 0u);
@@ -63,7 +64,7 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
       EXPECT_NEAR(last().unchecked[0].since.toSec(), 10.0 + 19 * kPeriod, 1e-6);
     }
     if (i > 25) {
-      EXPECT_EQ(last().verdict, ContactArray::CONTACT) << i;
+      EXPECT_EQ(last().verdict, Verdicts::CONTACT) << i;
     }
   }
 }
@@ -77,11 +78,11 @@ TEST_F(MonitorLoopTest, AHandThatIsHandedOverIsNotCheckedMeanwhile) {
     if (i >= 11) send(stampedTransform("table", "hand", now, 0.0));  // behind the plate
     step(now);
     if (i >= 12) {
-      EXPECT_EQ(last().verdict, ContactArray::CLEAR) << i;
+      EXPECT_EQ(last().verdict, Verdicts::CLEAR) << i;
     }
   }
-  ASSERT_EQ(verdicts(ContactArray::NOT_CHECKED), 2);  // delayed, then changed
-  EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
+  ASSERT_EQ(verdicts(Verdicts::NOT_CHECKED), 2);  // delayed, then changed
+  EXPECT_EQ(verdicts(Verdicts::CONTACT), 0);
 }
 
 TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
@@ -94,8 +95,8 @@ TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
     jumps += step(now) == Step::kJump;
     if (i > 65) foot_contacts += pairOf(last(), "foot", "plate") != nullptr;
     if (i > 65) {
-      EXPECT_FALSE(last().contradicted_since.isZero());
-      EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
+      EXPECT_FALSE(last().cycle.contradicted_since.isZero());
+      EXPECT_EQ(last().cycle.late_frames, std::vector<std::string>{"hand"});
       ASSERT_EQ(last().unchecked.size(), 1u);  // 1.5 s is longer than max_cycle
       EXPECT_EQ(last().unchecked[0].body, "hand");
     }
@@ -111,29 +112,29 @@ TEST_F(MonitorLoopTest, ALateTransformIsToldAndItsTimeCheckedAgain) {
     sendFoot(now);
     step(now);
     if (i > 0) {
-      EXPECT_EQ(last().verdict, ContactArray::CLEAR);
-      EXPECT_TRUE(last().contradicted_since.isZero());
+      EXPECT_EQ(last().verdict, Verdicts::CLEAR);
+      EXPECT_TRUE(last().cycle.contradicted_since.isZero());
     }
   }
   sendHand(10.25, 0.6);  // between 10.2 and 10.3 it went through the plate and back
   sendHand(10.6, 0.0);
   sendFoot(10.6);
   ASSERT_EQ(step(10.6), Step::kCycle);
-  EXPECT_EQ(last().contradicted_since, ros::Time(10.2));
-  EXPECT_EQ(last().late_frames, std::vector<std::string>{"hand"});
-  EXPECT_EQ(last().verdict, ContactArray::CONTACT);
+  EXPECT_EQ(last().cycle.contradicted_since, ros::Time(10.2));
+  EXPECT_EQ(last().cycle.late_frames, std::vector<std::string>{"hand"});
+  EXPECT_EQ(last().verdict, Verdicts::CONTACT);
   const PairContact* pair = pairOf(last(), "hand", "plate");
   ASSERT_NE(pair, nullptr);
   EXPECT_NEAR(pair->checked_from.toSec(), 10.2, 1e-6);
   EXPECT_EQ(pair->intervals.size(), 2u);
-  EXPECT_EQ(last().complete_until, ros::Time(10.6));
+  EXPECT_EQ(last().cycle.complete_until, ros::Time(10.6));
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.6));
-  EXPECT_EQ(state.contradicted_since, ros::Time(10.2));
+  EXPECT_EQ(state.cycle.contradicted_since, ros::Time(10.2));
   sendHand(10.7, 0.0);
   sendFoot(10.7);
   ASSERT_EQ(step(10.7), Step::kCycle);
-  EXPECT_TRUE(last().contradicted_since.isZero());
-  EXPECT_EQ(last().verdict, ContactArray::CLEAR);
+  EXPECT_TRUE(last().cycle.contradicted_since.isZero());
+  EXPECT_EQ(last().verdict, Verdicts::CLEAR);
 }
 
 TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
@@ -143,9 +144,9 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
     if (i < 10 || i >= 20) sendHand(now, 0.0);
     if (step(now) != Step::kCycle) continue;
     const bool is_delayed = i >= 10 && i < 20;
-    EXPECT_EQ(last().verdict, is_delayed ? ContactArray::NOT_CHECKED : ContactArray::CLEAR) << i;
-    EXPECT_EQ(last().delayed, is_delayed ? 2u : 0u);
-    EXPECT_NEAR(last().delayed_since.toSec(), is_delayed ? 10.0 + 9 * kPeriod : 0.0, 1e-6);
+    EXPECT_EQ(last().verdict, is_delayed ? Verdicts::NOT_CHECKED : Verdicts::CLEAR) << i;
+    EXPECT_EQ(last().cycle.delayed, is_delayed ? 2u : 0u);
+    EXPECT_NEAR(last().cycle.delayed_since.toSec(), is_delayed ? 10.0 + 9 * kPeriod : 0.0, 1e-6);
     EXPECT_EQ(last().reason.find("2 pairs wait for transforms") != std::string::npos, is_delayed) << last().reason;
     EXPECT_EQ(toMonitorState(*loop_, ros::Time(now)).reason, last().reason);
   }
@@ -160,10 +161,10 @@ TEST_F(MonitorLoopTest, AContactOfALatePairIsFoundWhereNothingNewerComes) {
   }
   sendHand(10.0 + 9 * kPeriod, 1.0);  // through the plate
   ASSERT_EQ(step(10.0 + 10 * kPeriod), Step::kCycle);
-  EXPECT_EQ(last().cycle_start, last().header.stamp);
-  EXPECT_EQ(last().complete_until, last().header.stamp);
-  EXPECT_EQ(last().verdict, ContactArray::CONTACT);
-  EXPECT_EQ(last().delayed, 0u);
+  EXPECT_EQ(last().cycle.start, last().header.stamp);
+  EXPECT_EQ(last().cycle.complete_until, last().header.stamp);
+  EXPECT_EQ(last().verdict, Verdicts::CONTACT);
+  EXPECT_EQ(last().cycle.delayed, 0u);
   EXPECT_NE(pairOf(last(), "hand", "plate"), nullptr);
   ASSERT_EQ(last().contacts.size(), 1u);
   EXPECT_NEAR(last().contacts[0].begin.toSec(), 10.0 + kPeriod * (4 + 5 * (kPlate - kPlateHalf - kRadius)), 1e-3);
@@ -179,11 +180,11 @@ TEST_F(MonitorLoopTest, ALinkAboveTheFixedFrameStopsNothing) {
     }
     return last().verdict;
   };
-  EXPECT_EQ(verdictFrom(10.0), ContactArray::CLEAR);
+  EXPECT_EQ(verdictFrom(10.0), Verdicts::CLEAR);
   send(stampedTransform("hand", "world", 10.2, 0.0));
-  EXPECT_EQ(verdictFrom(10.2), ContactArray::CLEAR);
+  EXPECT_EQ(verdictFrom(10.2), Verdicts::CLEAR);
   loop_->reset();
-  EXPECT_EQ(verdictFrom(11.0), ContactArray::CLEAR);
+  EXPECT_EQ(verdictFrom(11.0), Verdicts::CLEAR);
 }
 
 TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
@@ -220,7 +221,7 @@ TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
     if (i >= 12) sendHand(now - 12 * kPeriod, 0.0);
     if (step(now) == Step::kCycle && i > 30) most_times = std::max(most_times, loop_->cycle().motion.times.size());
   }
-  EXPECT_EQ(verdicts(ContactArray::CONTACT), 0);
+  EXPECT_EQ(verdicts(Verdicts::CONTACT), 0);
   // One of 13 periods is sampled for the foot and the plate; the foot and the hand need another one, 12 periods
   // earlier.
   EXPECT_LT(most_times, 20u);
@@ -258,8 +259,8 @@ TEST_F(MonitorLoopTest, StampsFarAheadStopNothing) {
     if (i < 10) sendHand(now, 0.0);
     step(now);
   }
-  EXPECT_EQ(verdicts(ContactArray::CLEAR), 9);
-  EXPECT_EQ(verdicts(ContactArray::NOT_CHECKED), 10);
+  EXPECT_EQ(verdicts(Verdicts::CLEAR), 9);
+  EXPECT_EQ(verdicts(Verdicts::NOT_CHECKED), 10);
 }
 
 TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
@@ -302,7 +303,7 @@ TEST_F(MonitorLoopTest, GapsUpToMaxCycleAreCheckedHoweverLongThatIs) {
   ASSERT_FALSE(said_.empty());
   const PairContact* pair = pairOf(said_.front(), "hand", "plate");
   ASSERT_NE(pair, nullptr);
-  EXPECT_EQ(pair->verdict, PairContact::CONTACT) << pair->reason;
+  EXPECT_EQ(pair->verdict, Verdicts::CONTACT) << pair->reason;
 }
 
 TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
@@ -325,8 +326,8 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
     sendFoot(now);
     step(now);
   }
-  EXPECT_EQ(last().verdict, ContactArray::CLEAR);
-  EXPECT_LT(verdicts(ContactArray::NOT_CHECKED), 30);
+  EXPECT_EQ(last().verdict, Verdicts::CLEAR);
+  EXPECT_LT(verdicts(Verdicts::NOT_CHECKED), 30);
 }
 
 }  // namespace sdf_ccd::monitor_loop_test

@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from monitor_case import (PLATE, RADIUS, SAMPLE_PERIOD, MonitorCase, Recorder, ball_transforms, pair_of, trajectory,
                           transform, wait_for_service)
-from sdf_ccd.msg import Contact, ContactArray, DistanceArray, MonitorState, PairContact, Plan
+from sdf_ccd.msg import DistanceArray, MonitorState, Plan, Verdicts
 from sdf_ccd.srv import QueryMotion
 
 
@@ -49,9 +49,9 @@ class MonitorTest(MonitorCase):
         message = self.contacts.find(self.touching)
         self.assertIsNotNone(message, 'no contact')
         self.assertEqual(message.header.frame_id, 'base')
-        self.assertEqual(message.verdict, ContactArray.CONTACT)
+        self.assertEqual(message.verdict, Verdicts.CONTACT)
         pair = pair_of(message, 'ball', 'plate')
-        self.assertEqual(pair.verdict, PairContact.CONTACT)
+        self.assertEqual(pair.verdict, Verdicts.CONTACT)
         self.assertFalse(pair.in_contact_at_samples)
         # The ball's front reaches one face of the plate; its back leaves the other.
         length = (after - before).to_sec()
@@ -62,12 +62,12 @@ class MonitorTest(MonitorCase):
         self.assertAlmostEqual((pair.intervals[-1].end - before).to_sec(), leave, delta=0.02 * length)
         self.assertGreater(pair.depth, 0.0004)  # half the plate with the ball's shell; the radius with the plate's
         self.assertLess(pair.depth, RADIUS + 1e-6)
-        self.assertGreater(pair.error_bound, 0.0)
+        self.assertGreater(pair.error_bound.total, 0.0)
         self.assertGreater(len(pair.points), 0)
         a, b = pair.wrench_on_a.force, pair.wrench_on_b.force
         for axis in 'xyz':
             self.assertAlmostEqual(getattr(a, axis), -getattr(b, axis), delta=1e-6)
-        self.assertIsNotNone(self.states.find(lambda m: m.verdict == MonitorState.CONTACT))
+        self.assertIsNotNone(self.states.find(lambda m: m.verdict == Verdicts.CONTACT))
 
     def test_every_cycle_has_a_message_and_presses_back(self):
         for _ in range(10):
@@ -79,7 +79,7 @@ class MonitorTest(MonitorCase):
             self.send(0.0)
         messages = self.contacts.messages
         self.assertGreater(len(messages), 20)
-        self.assertEqual(messages[-1].verdict, ContactArray.CLEAR)
+        self.assertEqual(messages[-1].verdict, Verdicts.CLEAR)
         # One contact, with one id from its begin to its end.
         told = [contact for m in messages for contact in m.contacts]
         self.assertEqual(len({contact.id for contact in told}), 1)
@@ -87,13 +87,13 @@ class MonitorTest(MonitorCase):
         self.assertEqual([contact.ends for contact in told], [False] * (len(told) - 1) + [True])
         self.assertFalse(told[-1].is_lost)
         self.assertEqual(told[-1].begin, told[0].begin)
-        self.assertEqual(told[-1].verdict, Contact.CONTACT)
+        self.assertEqual(told[-1].verdict, Verdicts.CONTACT)
         self.assertEqual(len(messages[-1].contacts), 0)
         # The values for plots.
         self.assertIsNotNone(self.states.find(lambda m: m.max_depth > 0.0 and m.max_force > 0.0 and m.contacts == 1))
         self.assertIsNotNone(self.states.find(lambda m: m.min_clearance > 0.0 and m.contacts == 0))
         for earlier, later in zip(messages, messages[1:]):
-            self.assertEqual(earlier.header.stamp, later.cycle_start)
+            self.assertEqual(earlier.header.stamp, later.cycle.start)
         # The markers of the contact are shown, and deleted when they are stale.
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers)))
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETE for x in m.markers)))
@@ -192,14 +192,14 @@ class MonitorTest(MonitorCase):
             self.send(ball, None)
         message = self.contacts.find(self.touching)
         self.assertIsNotNone(message, 'the ball waits for the other one')
-        self.assertGreater(message.delayed, 0)
-        self.assertEqual(message.not_checked, 0)
-        self.assertLess(message.complete_until, message.header.stamp)
+        self.assertGreater(message.cycle.delayed, 0)
+        self.assertEqual(message.cycle.not_checked, 0)
+        self.assertLess(message.cycle.complete_until, message.header.stamp)
         self.contacts.clear()
         self.send(0.0, 0.6)
-        message = self.contacts.find(lambda m: m.delayed == 0)
+        message = self.contacts.find(lambda m: m.cycle.delayed == 0)
         self.assertIsNotNone(message)
-        self.assertEqual(message.complete_until, message.header.stamp)
+        self.assertEqual(message.cycle.complete_until, message.header.stamp)
 
     def test_late_frame_costs_only_its_own_pairs(self):
         for _ in range(25):
@@ -210,13 +210,13 @@ class MonitorTest(MonitorCase):
 
         message = self.contacts.find(late)
         self.assertIsNotNone(message)
-        self.assertEqual(message.verdict, ContactArray.NOT_CHECKED)
+        self.assertEqual(message.verdict, Verdicts.NOT_CHECKED)
         self.assertIsNone(pair_of(message, 'ball', 'plate'))
-        self.assertIsNotNone(self.states.find(lambda m: any('other' in x for x in m.missing)))
+        self.assertIsNotNone(self.states.find(lambda m: any(body.body == 'other' for body in m.unchecked)))
         self.contacts.clear()
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
 
     def test_time_that_jumps_back_starts_anew(self):
         self.send(0.6)
@@ -230,30 +230,30 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         message = self.contacts.find(lambda m: m.header.stamp < self.stamp - rospy.Duration(50.0))
         self.assertIsNotNone(message)
-        self.assertGreaterEqual(message.cycle_start, stamp)
+        self.assertGreaterEqual(message.cycle.start, stamp)
         # Forward again: the gap is not checked, then cycles continue.
         self.contacts.clear()
         for _ in range(12):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.NOT_CHECKED and m.unchecked))
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.NOT_CHECKED and m.unchecked))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
 
     def test_silence_is_not_checked(self):
         for _ in range(10):
             self.send(0.6)
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers), 5.0)
-                             or self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR, 5.0))
+                             or self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR, 5.0))
         for recorder in (self.contacts, self.markers, self.states):
             recorder.clear()
         state = self.states.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(state)
-        self.assertEqual(state.verdict, MonitorState.NOT_CHECKED)
+        self.assertEqual(state.verdict, Verdicts.NOT_CHECKED)
         self.assertEqual(state.scene_version, 1)
         contacts = self.contacts.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(contacts)
-        self.assertEqual(contacts.verdict, ContactArray.NOT_CHECKED)
+        self.assertEqual(contacts.verdict, Verdicts.NOT_CHECKED)
         self.assertEqual(len(contacts.pairs), 0)
-        self.assertEqual(contacts.cycle_start, contacts.header.stamp)
+        self.assertEqual(contacts.cycle.start, contacts.header.stamp)
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         diagnostics = Recorder('/diagnostics', DiagnosticArray)
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.ERROR))
@@ -263,7 +263,7 @@ class MonitorTest(MonitorCase):
         self.assertRegex(answer.message, r'the newest transform of \w+ is [0-9.]+ s old')
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
 
     @staticmethod
     def level_of(diagnostics, task):
@@ -277,19 +277,19 @@ class MonitorTest(MonitorCase):
             self.send(0.0)
         last = self.stamp
         self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.complete_until >= self.stamp))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.cycle.complete_until >= self.stamp))
         diagnostics = Recorder('/diagnostics', DiagnosticArray)
         middle = last + (self.stamp - last) * 0.5
         self.tf.publish(ball_transforms(middle, 0.6, None))  # it was behind the plate at that time
         self.send(0.0)
-        message = self.contacts.find(lambda m: not m.contradicted_since.is_zero())
+        message = self.contacts.find(lambda m: not m.cycle.contradicted_since.is_zero())
         self.assertIsNotNone(message)
-        self.assertEqual(message.contradicted_since, last)
-        self.assertEqual(list(message.late_frames), ['ball'])
+        self.assertEqual(message.cycle.contradicted_since, last)
+        self.assertEqual(list(message.cycle.late_frames), ['ball'])
         pair = pair_of(message, 'ball', 'plate')
-        self.assertEqual(pair.verdict, PairContact.CONTACT)
+        self.assertEqual(pair.verdict, Verdicts.CONTACT)
         self.assertEqual(pair.checked_from, last)
-        self.assertIsNotNone(self.states.find(lambda m: m.contradicted_since == last))
+        self.assertIsNotNone(self.states.find(lambda m: m.cycle.contradicted_since == last))
         for _ in range(60):
             self.send(0.0)
         self.assertIsNotNone(diagnostics.find(lambda m: self.level_of(m, 'transforms') == DiagnosticStatus.WARN))
@@ -322,13 +322,13 @@ class MonitorTest(MonitorCase):
             if i > 5:
                 self.tf.publish(ball_transforms(self.stamp - rospy.Duration(1.5), None, 0.001 * i))
         self.assertFalse(any(x.action == Marker.DELETEALL for m in self.markers.messages for x in m.markers))
-        self.assertIsNotNone(self.contacts.find(lambda m: 'other' in m.late_frames))
+        self.assertIsNotNone(self.contacts.find(lambda m: 'other' in m.cycle.late_frames))
         self.assertIsNone(self.states.find(lambda m: 'jumped' in m.reason, 0.0))
         for _ in range(20):  # the late transforms end, and so does their cost
             self.send(0.0)
         self.contacts.clear()
         self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
 
     def test_static_frame_that_had_no_room_is_heard_when_a_body_hangs_on_it(self):
         fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
@@ -358,12 +358,12 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
 
     def test_bad_parameter_is_named(self):
         state = Recorder('/bad_monitor/state', MonitorState).find(lambda m: 'max_latency' in m.reason)
         self.assertIsNotNone(state)
-        self.assertEqual(state.verdict, MonitorState.NOT_CHECKED)
+        self.assertEqual(state.verdict, Verdicts.NOT_CHECKED)
         self.assertIn('-3.5', state.reason)
         answer = rospy.ServiceProxy('/bad_monitor/query_motion', QueryMotion)(trajectory('slide', [0.0, 1.0]))
         self.assertFalse(answer.success)

@@ -44,7 +44,7 @@ TEST(Parameters, ThoseOfAServerAreThoseOfAFile) {
 TEST(Parameters, TheDocumentedParametersAreTheDefaults) {
   const MonitorParameters documented = parseParameters(loadYaml(SDF_CCD_SOURCE_DIR "/config/monitor.yaml"), "~");
   const MonitorParameters defaults = parse("");
-  EXPECT_TRUE(documented.unknown.empty()) << documented.unknown.front();
+  EXPECT_TRUE(documented.unused.empty()) << documented.unused.front();
   EXPECT_EQ(documented.urdf_parameter, defaults.urdf_parameter);
   EXPECT_EQ(documented.srdf_parameter, defaults.srdf_parameter);
   EXPECT_EQ(documented.scene.field.cell_size, defaults.scene.field.cell_size);
@@ -303,7 +303,18 @@ TEST(Parameters, AMisspeltParameterOfAGroupIsRefused) {
   EXPECT_EQ(errorOf("contact: {dampin: 1.0}"), "line 1: unknown parameter ~/contact/dampin, did you mean damping?");
   // On a parameter server the node's namespace may hold parameters of others.
   const MonitorParameters parameters = parse("filed: {cell_size: 0.001}");
-  EXPECT_EQ(parameters.unknown, std::vector<std::string>{"~/filed, did you mean field?"});
+  EXPECT_EQ(parameters.unused, std::vector<std::string>{"~/filed, did you mean field?"});
+}
+
+TEST(Parameters, WhatIsGoneIsNamedWithWhatToDoInstead) {
+  const MonitorParameters parameters =
+      parse("allow_http: false\nfield: {sample_bits: 32, cells: 50}\nrate: 20\nrat: 3");
+  const std::vector<std::string> expected = {
+      "~/allow_http, which is gone: nothing is read over the network: put meshes into files or packages",
+      "~/field/sample_bits, which is gone: samples have 16 bits", "~/rat, did you mean rate?"};
+  EXPECT_EQ(parameters.unused, expected);
+  EXPECT_EQ(parameters.scene.field.cells, 50);
+  EXPECT_EQ(parameters.rate, 20.0);
 }
 
 }  // namespace sdf_ccd::parameters_test

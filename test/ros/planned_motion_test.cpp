@@ -35,12 +35,12 @@ class PlannedMotionTest : public ::testing::Test {
 
   static QueryMotion::Request swing(std::vector<double> positions) {
     QueryMotion::Request request;
-    request.trajectory.joint_names = {"swing"};
+    request.joint_trajectory.joint_names = {"swing"};
     for (std::size_t i = 0; i < positions.size(); ++i) {
       trajectory_msgs::JointTrajectoryPoint point;
       point.positions = {positions[i]};
       point.time_from_start = ros::Duration(1.0 + i);
-      request.trajectory.points.push_back(point);
+      request.joint_trajectory.points.push_back(point);
     }
     return request;
   }
@@ -98,8 +98,8 @@ TEST_F(PlannedMotionTest, WholeRevolutionsAreNotTakenForRest) {
 
 TEST_F(PlannedMotionTest, TimesFartherApartThanADurationHoldsAreRefused) {
   QueryMotion::Request request = swing({0.0, 0.1});
-  request.trajectory.points[0].time_from_start = ros::Duration(-2147483648.0);
-  request.trajectory.points[1].time_from_start = ros::Duration(2147483647.0);
+  request.joint_trajectory.points[0].time_from_start = ros::Duration(-2147483648.0);
+  request.joint_trajectory.points[1].time_from_start = ros::Duration(2147483647.0);
   EXPECT_EQ(refusal(request),
             "the trajectory: time_from_start of point 1 is 4.29497e+09 s after the first point; a ros::Duration "
             "holds at most 2147483647 s");
@@ -133,10 +133,12 @@ TEST_F(PlannedMotionTest, LinkPosesAreTakenAsTheyAre) {
   const CycleMotion result = motion(request);
   EXPECT_EQ(result.missing[0], "");
   EXPECT_EQ(result.X_WB[0][1].translation(), Vector3d(1.0, 0.0, 0.0));
-  for (const double w : {0.0, 0.9, 2.0}) {
+  for (const double w : {0.9, 2.0}) {
     request.poses[1].poses[0].orientation.w = w;
     EXPECT_EQ(refusal(request), "orientation is not a unit quaternion");
   }
+  request.poses[1].poses[0].orientation.w = 0.0;
+  EXPECT_EQ(refusal(request), "orientation is a quaternion of zeros: write orientation.w: 1");
   request.links = {"tail"};
   EXPECT_EQ(refusal(request), "the robot has no link tail");
 }
@@ -193,8 +195,8 @@ TEST_F(PlannedMotionTest, EachLinkFollowsItsOwnShortestWay) {
 
 TEST_F(PlannedMotionTest, JointsThatAreNotNamedAreWhereTfHasThem) {
   QueryMotion::Request request = swing({0.0, 1.0});
-  request.trajectory.joint_names.clear();
-  for (auto& point : request.trajectory.points) point.positions.clear();
+  request.joint_trajectory.joint_names.clear();
+  for (auto& point : request.joint_trajectory.points) point.positions.clear();
   Isometry3d X_PL(Eigen::Translation3d(0.0, 0.0, 1.0) * Eigen::AngleAxisd(M_PI_2, Vector3d::UnitY()));
   now_.joints.X_PL["swing"] = X_PL;
   const CycleMotion result = motion(request);
@@ -217,10 +219,10 @@ TEST_F(PlannedMotionTest, ObjectsInALinksFrameMoveWithIt) {
 TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
   for (const std::string name : {"virtual", "base"}) {
     QueryMotion::Request request = swing({0.0, 1.0, 2.0});
-    request.multi_dof_trajectory.joint_names = {name};
-    request.multi_dof_trajectory.points.resize(2);
+    request.multi_dof_joint_trajectory.joint_names = {name};
+    request.multi_dof_joint_trajectory.points.resize(2);
     for (int i = 0; i < 2; ++i) {
-      auto& point = request.multi_dof_trajectory.points[i];
+      auto& point = request.multi_dof_joint_trajectory.points[i];
       point.time_from_start = ros::Duration(1.0 + 2.0 * i);
       point.transforms.resize(1);
       point.transforms[0].translation.x = 4.0 * i;
@@ -236,10 +238,10 @@ TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
     now_.plan_frame_missing = "no map";
     EXPECT_EQ(motion(request).missing[0], "no map");
     now_.plan_frame_missing = "";
-    request.multi_dof_trajectory.points[1].time_from_start = ros::Duration(4.0);
+    request.multi_dof_joint_trajectory.points[1].time_from_start = ros::Duration(4.0);
     EXPECT_EQ(refusal(request), "two trajectories do not begin and end at the same times");
-    request.multi_dof_trajectory.points[1].transforms[0].rotation.w = 0.0;
-    EXPECT_EQ(refusal(request), "orientation is not a unit quaternion");
+    request.multi_dof_joint_trajectory.points[1].transforms[0].rotation.w = 0.0;
+    EXPECT_EQ(refusal(request), "rotation is a quaternion of zeros: write rotation.w: 1");
   }
 }
 
@@ -247,10 +249,10 @@ TEST_F(PlannedMotionTest, TheRootMovesByAMultiDofTrajectory) {
 TEST_F(PlannedMotionTest, ObjectsThatMoveWithTheBaseAreSaid) {
   const auto base = [] {
     QueryMotion::Request request;
-    request.multi_dof_trajectory.joint_names = {"virtual"};
-    request.multi_dof_trajectory.points.resize(2);
+    request.multi_dof_joint_trajectory.joint_names = {"virtual"};
+    request.multi_dof_joint_trajectory.points.resize(2);
     for (int i = 0; i < 2; ++i) {
-      auto& point = request.multi_dof_trajectory.points[i];
+      auto& point = request.multi_dof_joint_trajectory.points[i];
       point.time_from_start = ros::Duration(i);
       point.transforms.resize(1);
       point.transforms[0].translation.x = i;
@@ -272,11 +274,11 @@ TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   EXPECT_EQ(refusal(QueryMotion::Request()), "give either trajectories or poses of links, and not both");
   EXPECT_EQ(refusal(swing({0.0})), "the trajectory has 1 points; two or more are needed");
   QueryMotion::Request request = swing({0.0, 1.0});
-  request.trajectory.points[1].time_from_start = ros::Duration(0.5);
+  request.joint_trajectory.points[1].time_from_start = ros::Duration(0.5);
   EXPECT_EQ(refusal(request),
             "the trajectory: time_from_start of point 1 is not greater than that of the point before");
   request = swing({0.0, 1.0});
-  request.trajectory.points[1].positions.clear();
+  request.joint_trajectory.points[1].positions.clear();
   EXPECT_EQ(refusal(request), "point 1 of the trajectory has 0 positions for 1 joints");
   request = swing({0.0, 1.0});
   request.other_joints = {"swing"};
@@ -287,7 +289,7 @@ TEST_F(PlannedMotionTest, BadRequestsAreRefusedWithTheReason) {
   request.allow_beyond_limits = true;
   EXPECT_EQ(refusal(request), "");
   request = swing({0.0, 1.0});
-  request.trajectory.joint_names = {"swong"};
+  request.joint_trajectory.joint_names = {"swong"};
   EXPECT_NE(refusal(request).find("swong"), std::string::npos);
 }
 

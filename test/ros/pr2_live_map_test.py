@@ -113,7 +113,7 @@ class Pr2LiveMapTest(MasterCase):
     def attach_stick(self):
         """Attaches the stick to the laser; it may touch the robot, whose arms are in the way."""
         middle, length = sum(STICK[:2]) / 2, STICK[1] - STICK[0]
-        stick = SceneChange(type=SceneChange.ATTACH, object='stick', link=LASER, touch_links=['*'],
+        stick = SceneChange(operation=SceneChange.ATTACH, id='stick', link_name=LASER, touch_links=['*'],
                             pose=Pose(position=Point(middle, 0.0, 0.0), orientation=Quaternion(0, 0, 0, 1)),
                             primitives=[SolidPrimitive(type=SolidPrimitive.BOX,
                                                        dimensions=(length, STICK[2], STICK[2]))])
@@ -176,19 +176,19 @@ class Pr2LiveMapTest(MasterCase):
         time.sleep(1.0)
         self.assertIsNone(self.monitor.poll(), 'it has ended')
         self.assertIsNotNone(second)
-        cycles = [m for m in self.contacts.messages if m.checked + m.skipped + m.not_checked > 0]
-        states = [s for s in self.states.messages if s.run_time > 0.0]
+        cycles = [m for m in self.contacts.messages if m.cycle.checked + m.cycle.skipped + m.cycle.not_checked > 0]
+        states = [s for s in self.states.messages if s.cycle.run_time > 0.0]
         # Cycles cover the bag without a gap, as often as transforms come.
         for earlier, later in zip(cycles, cycles[1:]):
-            self.assertEqual(earlier.header.stamp, later.cycle_start)
-        self.assertLess(cycles[0].cycle_start.to_sec() - self.begin, 0.5)
+            self.assertEqual(earlier.header.stamp, later.cycle.start)
+        self.assertLess(cycles[0].cycle.start.to_sec() - self.begin, 0.5)
         self.assertGreater(cycles[-1].header.stamp.to_sec(), self.laser.times[-1] - 0.1)
         self.assertGreater(len(cycles), 10 * len(self.laser.times) // 4)
         # Maps were adopted in the meantime.
         self.assertGreater(cycles[-1].scene_version, attached + sent // 2)
-        times = sorted(1e3 * s.run_time for s in states)
+        times = sorted(1e3 * s.cycle.run_time for s in states)
         print('first map after %.1f s; %d cycles in %.1f s, %d maps, %d versions; a cycle %.2f ms, p99 %.2f, '
-              'most %.2f' % (first, len(cycles), (cycles[-1].header.stamp - cycles[0].cycle_start).to_sec(), sent,
+              'most %.2f' % (first, len(cycles), (cycles[-1].header.stamp - cycles[0].cycle.start).to_sec(), sent,
             cycles[-1].scene_version - attached, times[len(times) // 2], times[int(0.99 * len(times))], times[-1]))
         self.judge(cycles, attached, second)
 
@@ -201,7 +201,7 @@ class Pr2LiveMapTest(MasterCase):
                 if 'stick' in (p.body_a, p.body_b) and any(b.startswith('octomap/') for b in (p.body_a, p.body_b))]
         # Every overlap is reported.
         overlapping = 0
-        end = min(self.laser.times[-1], cycles[-1].complete_until.to_sec())
+        end = min(self.laser.times[-1], cycles[-1].cycle.complete_until.to_sec())
         for i in range(int((end - first) / STEP)):
             when = first + STEP * i
             if switch < when < switched or self.laser.apart(self.laser.angle(when), LUMPS[when >= switch]) > -SURE:

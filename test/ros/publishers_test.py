@@ -15,7 +15,7 @@ from std_msgs.msg import Float64
 
 from monitor_case import Recorder, box, pose, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, SceneChange
+from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdicts
 from sdf_ccd.srv import UpdateScene
 
 TRANSFORM_STORM = sys.argv.pop()
@@ -50,12 +50,12 @@ class PublishersTest(MasterCase):
         os.killpg(process.pid, number)
 
     def expect_clear(self):
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == ContactArray.CLEAR))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR))
         self.assertIsNotNone(self.scales.find_new(lambda m: m.data > 0.0))
 
     def expect_silence(self):
         self.assertIsNotNone(self.states.find_new(lambda m: m.reason == 'no new transforms', 20 * SILENCE))
-        self.assertEqual(self.states.messages[-1].verdict, MonitorState.NOT_CHECKED)
+        self.assertEqual(self.states.messages[-1].verdict, Verdicts.NOT_CHECKED)
         self.assertIsNotNone(self.scales.find_new(lambda m: m.data == 0.0))
 
     def test_a_publisher_that_hangs_dies_and_is_replaced(self):
@@ -74,7 +74,7 @@ class PublishersTest(MasterCase):
                 publisher = self.publish()
             # A contact that continues has the same id or a new one, and does not end twice.
             self.assertIsNotNone(self.contacts.find_new(lambda m: any(not c.ends for c in m.contacts)))
-        self.update(changes=[SceneChange(type=SceneChange.REMOVE, object='wall')])
+        self.update(changes=[SceneChange(operation=SceneChange.REMOVE, id='wall')])
         self.expect_clear()
         # Two publishers of the same transforms do no harm.
         second = self.publish()
@@ -99,7 +99,7 @@ class PublishersTest(MasterCase):
         heard = self.contacts.messages
         self.assertGreater(len(heard), 0.6 * 6.0 * RATE)
         for earlier, later in zip(heard, heard[1:]):
-            self.assertEqual(earlier.header.stamp, later.cycle_start)
+            self.assertEqual(earlier.header.stamp, later.cycle.start)
         self.assertLess(self.resident() - before, 8 << 20)
         for listener in listeners:
             self.kill(listener)

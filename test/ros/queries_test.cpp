@@ -7,6 +7,7 @@
 #include "cancel_moments.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::queries_test {
 
@@ -65,7 +66,7 @@ TEST_F(QueriesTest, OnePairTakesNoLongerThanItMay) {
   QueryMotion::Response response;
   const double took = secondsOf([&] { queries_->answer(heavyRequest(), response); });
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(response.verdict, QueryMotion::Response::NOT_CHECKED);
+  EXPECT_EQ(response.verdict, Verdicts::NOT_CHECKED);
   EXPECT_NE(response.message.find("takes more than 0.005 s"), std::string::npos) << response.message;
   EXPECT_GE(took, limits_.seconds);
   EXPECT_LT(took, limits_.seconds + 0.1 * slowness());
@@ -87,9 +88,10 @@ TEST_F(QueriesTest, DistancesAreKnownOfBodiesWithoutAField) {
   QueryPoints::Response response;
   queries.answer(request, response);
   ASSERT_TRUE(response.success) << response.message;
-  EXPECT_EQ(response.bodies.at(0), "ball");
-  EXPECT_NEAR(response.distances.at(0), -0.03, 1e-9);
-  EXPECT_NEAR(response.gradients.at(0).x, -1.0, 1e-9);
+  ASSERT_EQ(response.points.size(), 1u);
+  EXPECT_EQ(response.points[0].body, "ball");
+  EXPECT_NEAR(response.points[0].distance, -0.03, 1e-9);
+  EXPECT_NEAR(response.points[0].gradient.x, -1.0, 1e-9);
   EXPECT_EQ(response.message, "");
 }
 
@@ -118,15 +120,18 @@ TEST_F(QueriesTest, PairsOfManyMotionsAreListedWithTheirFirstContact) {
   };
   QueryMotions::Response response = answer({});
   ASSERT_TRUE(response.success) << response.message;
-  ASSERT_EQ(response.pair_motions.size(), 50U);
-  for (std::size_t k = 0; k < 50; ++k) {
-    EXPECT_EQ(response.pair_motions[k], 2 * k);
-    EXPECT_EQ(response.pair_verdicts[k], QueryMotions::Response::CONTACT);
-    EXPECT_EQ(response.pairs_a[k], "ball");
-    EXPECT_EQ(response.pairs_b[k], "wall");
-    EXPECT_NEAR(response.pair_times[k].toSec(), 0.6, 1e-3) << "its surface, 0.1 m ahead, comes to x = 0.3 m";
-    EXPECT_EQ(response.times[2 * k], response.pair_times[k]);
-    EXPECT_EQ(response.verdicts[2 * k + 1], QueryMotions::Response::CLEAR);
+  ASSERT_EQ(response.motions.size(), 100U);
+  for (std::size_t k = 0; k < 100; k += 2) {
+    const CheckedMotion &touching = response.motions[k], &clear = response.motions[k + 1];
+    EXPECT_EQ(touching.verdict, Verdicts::CONTACT);
+    ASSERT_EQ(touching.pairs.size(), 1u);
+    EXPECT_EQ(touching.pairs[0].verdict, Verdicts::CONTACT);
+    EXPECT_EQ(touching.pairs[0].body_a + " " + touching.pairs[0].body_b, "ball wall");
+    EXPECT_NEAR(touching.pairs[0].time.toSec(), 0.6, 1e-3) << "its surface, 0.1 m ahead, comes to x = 0.3 m";
+    EXPECT_EQ(touching.time, touching.pairs[0].time);
+    EXPECT_EQ(clear.verdict, Verdicts::CLEAR);
+    EXPECT_TRUE(clear.pairs.empty() && clear.body_a.empty());
+    EXPECT_EQ(clear.time, ros::Duration(-1.0));
   }
   QueryLimits few;
   few.pairs = 49;
@@ -134,7 +139,10 @@ TEST_F(QueriesTest, PairsOfManyMotionsAreListedWithTheirFirstContact) {
   EXPECT_FALSE(response.success);
   EXPECT_NE(response.message.find("listed pairs: at most 49 are allowed"), std::string::npos) << response.message;
   request.list_pairs = false;
-  EXPECT_TRUE(answer(few).pair_motions.empty());
+  response = answer(few);
+  ASSERT_EQ(response.motions.size(), 100U);
+  EXPECT_EQ(response.motions[0].body_a + " " + response.motions[0].body_b, "ball wall");
+  EXPECT_TRUE(response.motions[0].pairs.empty());
 }
 
 /// In the URDF the base is fixed in the world; an arm and a leaf turn on it, which are checked. tf has the base
@@ -178,19 +186,19 @@ class MovedBaseTest : public ::testing::Test {
   /// "body - body: reason" of the pairs that are not checked while the arm turns; without a reason, of contacts.
   std::vector<std::string> uncheckedWithArm(double from, double to) {
     QueryMotion::Request request;
-    request.trajectory.joint_names = {"j_arm"};
+    request.joint_trajectory.joint_names = {"j_arm"};
     for (const double angle : {from, to}) {
-      request.trajectory.points.emplace_back();
-      request.trajectory.points.back().positions = {angle};
-      request.trajectory.points.back().time_from_start = ros::Duration(request.trajectory.points.size());
+      request.joint_trajectory.points.emplace_back();
+      request.joint_trajectory.points.back().positions = {angle};
+      request.joint_trajectory.points.back().time_from_start = ros::Duration(request.joint_trajectory.points.size());
     }
     QueryMotions::Request several;
     several.motions.resize(1);
-    several.motions[0].joint_trajectory = request.trajectory;
+    several.motions[0].joint_trajectory = request.joint_trajectory;
     QueryMotions::Response verdicts;
     queries_->answer(several, verdicts);
     const std::vector<std::string> unchecked = uncheckedOf(request);
-    const bool is_clear = !verdicts.verdicts.empty() && verdicts.verdicts[0] == QueryMotion::Response::CLEAR;
+    const bool is_clear = !verdicts.motions.empty() && verdicts.motions[0].verdict == Verdicts::CLEAR;
     EXPECT_EQ(is_clear, unchecked.empty());
     for (const std::string& pair : unchecked)
       EXPECT_EQ(verdicts.message.find(pair) == std::string::npos, pair.back() == ' ') << verdicts.message;
@@ -206,10 +214,9 @@ class MovedBaseTest : public ::testing::Test {
     for (const PairContact& pair : response.pairs)
       unchecked.push_back(pair.body_a + " - " + pair.body_b + ": " + pair.reason.substr(0, pair.reason.find(':')));
     const auto isContact = [](const std::string& pair) { return pair.back() == ' '; };
-    EXPECT_EQ(response.verdict, unchecked.empty() ? QueryMotion::Response::CLEAR
-                                : std::any_of(unchecked.begin(), unchecked.end(), isContact)
-                                    ? QueryMotion::Response::CONTACT
-                                    : QueryMotion::Response::NOT_CHECKED);
+    EXPECT_EQ(response.verdict, unchecked.empty()                                            ? Verdicts::CLEAR
+                                : std::any_of(unchecked.begin(), unchecked.end(), isContact) ? Verdicts::CONTACT
+                                                                                             : Verdicts::NOT_CHECKED);
     return unchecked;
   }
 

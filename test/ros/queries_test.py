@@ -9,8 +9,8 @@ from geometry_msgs.msg import Point, Pose
 from std_msgs.msg import Header
 
 from monitor_case import PLATE, RADIUS, MonitorCase, trajectory, wait_for_service
-from sdf_ccd.msg import LinkPoses, RobotMotion
-from sdf_ccd.srv import QueryMotionRequest, QueryMotionResponse, QueryMotions, QueryMotionsRequest, QueryPoints
+from sdf_ccd.msg import LinkPoses, RobotMotion, Verdicts
+from sdf_ccd.srv import QueryMotionRequest, QueryMotions, QueryMotionsRequest, QueryPoints
 
 
 class QueriesTest(MonitorCase):
@@ -28,17 +28,17 @@ class QueriesTest(MonitorCase):
         self.send(0.0)
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CLEAR)
+        self.assertEqual(answer.verdict, Verdicts.CLEAR)
         answer = self.query_motion(trajectory('slide', [0.0, 1.0, 0.0]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(answer.verdict, Verdicts.CONTACT)
         self.assertEqual(len(answer.pairs), 1)
         self.assertEqual(len(answer.pairs[0].intervals), 2)
         self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), PLATE - RADIUS, delta=0.003)
         answer = self.query_motion(trajectory('glide', [0.0, 1.0]))
         self.assertFalse(answer.success)
         self.assertIn('glide', answer.message)
-        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+        self.assertEqual(answer.verdict, Verdicts.NOT_CHECKED)
 
         request = QueryMotionRequest(links=['ball'])
         for i, x in enumerate((0.0, 1.0)):
@@ -47,14 +47,18 @@ class QueriesTest(MonitorCase):
             request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        request.poses[1].poses[0].orientation.w = 0.0
+        answer = self.query_motion(request)
+        self.assertFalse(answer.success)
+        self.assertIn('write orientation.w: 1', answer.message)
 
     def test_query_motion_starts_from_the_current_state(self):
         for _ in range(3):
             self.send(0.0, PLATE)  # the other ball is in the plate
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(answer.verdict, Verdicts.CONTACT)
         self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
         self.assertEqual(answer.assumed_joints, ['other_slide'])
         self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
@@ -62,7 +66,7 @@ class QueriesTest(MonitorCase):
         request = trajectory('slide', [0.0, 0.3])
         request.other_joints, request.other_positions = ['other_slide'], [0.0]
         answer = self.query_motion(request)
-        self.assertEqual(answer.verdict, answer.CLEAR)
+        self.assertEqual(answer.verdict, Verdicts.CLEAR)
         self.assertEqual(answer.assumed_joints, [])
         request = trajectory('slide', [0.0, 2.5])
         answer = self.query_motion(request)
@@ -70,7 +74,7 @@ class QueriesTest(MonitorCase):
         self.assertIn('joint slide: position 2.5 is beyond its limits [-2, 2]', answer.message)
 
     def test_a_joint_beyond_its_limits_is_checked(self):
-        for end, verdict in ((2.9, QueryMotionResponse.CLEAR), (2.95, QueryMotionResponse.CONTACT)):
+        for end, verdict in ((2.9, Verdicts.CLEAR), (2.95, Verdicts.CONTACT)):
             request = trajectory('slide', [1.0, end])
             request.allow_beyond_limits = True
             answer = self.query_motion(request)
@@ -82,24 +86,24 @@ class QueriesTest(MonitorCase):
         for _ in range(3):
             self.send(0.3)
         request = trajectory('slide', [0.3, 0.3])
-        for point, velocity in zip(request.trajectory.points, (1.0, -1.0)):
+        for point, velocity in zip(request.joint_trajectory.points, (1.0, -1.0)):
             point.velocities = [velocity]
-        self.assertEqual(self.query_motion(request).verdict, QueryMotionResponse.CLEAR)
+        self.assertEqual(self.query_motion(request).verdict, Verdicts.CLEAR)
         request.interpolation = QueryMotionRequest.SPLINES  # up to 0.55
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(answer.verdict, Verdicts.CONTACT)
         enter = 0.5 - math.sqrt(0.25 - (PLATE - RADIUS - 0.3))
         self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), enter, delta=0.01)
         request = trajectory('slide', [0.0, 0.3])
         request.other_joints, request.other_positions = ['other_slide'], [0.0]
-        for margin, verdict in ((0.15, answer.CLEAR), (0.2, answer.UNCERTAIN)):
+        for margin, verdict in ((0.15, Verdicts.CLEAR), (0.2, Verdicts.UNCERTAIN)):
             request.margin = margin
             answer = self.query_motion(request)
             self.assertEqual(answer.verdict, verdict)
-            self.assertLess(answer.error_bound, 0.01)
+            self.assertLess(answer.error_bound.total, 0.01)
             self.assertEqual(answer.margin, margin)
-            self.assertTrue(all(pair.error_bound < 0.01 for pair in answer.pairs))
+            self.assertTrue(all(pair.error_bound.total < 0.01 for pair in answer.pairs))
         request.margin = -1.0
         self.assertFalse(self.query_motion(request).success)
         request.margin, request.interpolation = 0.0, 7
@@ -107,31 +111,32 @@ class QueriesTest(MonitorCase):
 
     def test_query_many_motions(self):
         query = wait_for_service('/collision_monitor/query_motions', QueryMotions)
-        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).trajectory)
+        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).joint_trajectory)
                    for positions in [[0.0, 0.3], [0.0, 1.0]] * 20]
         request = QueryMotionsRequest(motions=motions, other_joints=['other_slide'], other_positions=[0.0])
         answer = query(request)
         self.assertTrue(answer.success, answer.message)
-        verdicts = list(bytearray(answer.verdicts))
-        self.assertEqual(verdicts, [QueryMotionResponse.CLEAR, QueryMotionResponse.CONTACT] * 20)
-        self.assertEqual({answer.bodies_a[1], answer.bodies_b[1]}, {'ball', 'plate'})
-        self.assertEqual(answer.bodies_a[0], '')
-        self.assertEqual(answer.times[0].to_sec(), -1.0)
-        self.assertAlmostEqual(answer.times[1].to_sec(), PLATE - RADIUS, delta=0.05)
-        self.assertEqual(list(answer.pair_motions), [])
+        self.assertEqual([motion.verdict for motion in answer.motions], [Verdicts.CLEAR, Verdicts.CONTACT] * 20)
+        clear, touching = answer.motions[:2]
+        self.assertEqual({touching.body_a, touching.body_b}, {'ball', 'plate'})
+        self.assertEqual(clear.body_a, '')
+        self.assertEqual(clear.time.to_sec(), -1.0)
+        self.assertAlmostEqual(touching.time.to_sec(), PLATE - RADIUS, delta=0.05)
+        self.assertFalse(any(motion.pairs for motion in answer.motions))
         request.list_pairs = True
         answer = query(request)
-        self.assertEqual(list(answer.pair_motions), list(range(1, 40, 2)))
-        self.assertEqual(list(bytearray(answer.pair_verdicts)), [QueryMotionResponse.CONTACT] * 20)
-        self.assertEqual({answer.pairs_a[0], answer.pairs_b[0]}, {'ball', 'plate'})
-        self.assertAlmostEqual(answer.pair_times[0].to_sec(), PLATE - RADIUS, delta=0.003)
-        self.assertEqual(answer.times[1], answer.pair_times[0])
+        self.assertEqual([len(motion.pairs) for motion in answer.motions], [0, 1] * 20)
+        listed = answer.motions[1].pairs[0]
+        self.assertEqual(listed.verdict, Verdicts.CONTACT)
+        self.assertEqual({listed.body_a, listed.body_b}, {'ball', 'plate'})
+        self.assertAlmostEqual(listed.time.to_sec(), PLATE - RADIUS, delta=0.003)
+        self.assertEqual(answer.motions[1].time, listed.time)
         request.list_pairs = False
         request.margin = 0.2
         answer = query(request)
-        self.assertEqual(list(bytearray(answer.verdicts))[0], QueryMotionResponse.UNCERTAIN)
+        self.assertEqual(answer.motions[0].verdict, Verdicts.UNCERTAIN)
         self.assertEqual(answer.margin, 0.2)
-        self.assertLess(max(answer.error_bounds), 0.01)
+        self.assertLess(max(motion.error_bound for motion in answer.motions), 0.01)
         request.motions[3].joint_trajectory.points[1].positions = [5.0]
         answer = query(request)
         self.assertFalse(answer.success)
@@ -140,10 +145,11 @@ class QueriesTest(MonitorCase):
     def test_query_points(self):
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(list(answer.bodies), ['plate', 'plate'])
-        self.assertAlmostEqual(answer.distances[0], PLATE - 0.45, delta=1e-6)
-        self.assertAlmostEqual(answer.distances[1], -0.0005, delta=1e-6)
-        self.assertAlmostEqual(answer.gradients[0].x, -1.0, delta=1e-6)
+        outside, inside = answer.points
+        self.assertEqual((outside.body, inside.body), ('plate', 'plate'))
+        self.assertAlmostEqual(outside.distance, PLATE - 0.45, delta=1e-6)
+        self.assertAlmostEqual(inside.distance, -0.0005, delta=1e-6)
+        self.assertAlmostEqual(outside.gradient.x, -1.0, delta=1e-6)
         answer = self.query_points(Header(frame_id='nowhere'), [Point(0.45, 0.0, 0.0)])
         self.assertFalse(answer.success)
         self.assertIn('nowhere', answer.message)
@@ -151,20 +157,20 @@ class QueriesTest(MonitorCase):
     def test_queries_have_limits_that_they_say(self):
         answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1001))
         self.assertFalse(answer.success)
-        self.assertEqual(answer.verdict, answer.NOT_CHECKED)
+        self.assertEqual(answer.verdict, Verdicts.NOT_CHECKED)
         self.assertIn('2002 waypoints: at most 2000 are allowed', answer.message)
         answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1000))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, answer.CLEAR)
+        self.assertEqual(answer.verdict, Verdicts.CLEAR)
         answer = self.query_motion(trajectory('slide', [0.0, 1.0] * 50))
-        self.assertEqual(answer.verdict, answer.CONTACT)
+        self.assertEqual(answer.verdict, Verdicts.CONTACT)
         self.assertEqual(len(answer.pairs[0].intervals), 99)
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0)] * 20001)
         self.assertFalse(answer.success)
         self.assertIn('20001 points: at most 20000 are allowed', answer.message)
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(1e300, 0.0, 0.0)])
         self.assertFalse(answer.success)
-        self.assertEqual(len(answer.distances), 0)
+        self.assertEqual(answer.points, [])
         self.assertIn('point 1 is more than 1e+08 m', answer.message)
 
 

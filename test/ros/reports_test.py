@@ -10,12 +10,13 @@ import genpy.dynamic
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
 from monitor_case import CUBE, PERIOD, PLATE, RADIUS, MovingBalls, Recorder
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import MonitorState
+from sdf_ccd.msg import MonitorState, Verdicts
 
 STIFFNESS = 1e6                   # [N/m^3]
 ARM, DEPTH = 0.4, 0.003           # distance of the hand from the arm's joint, and its depth in a wall [m]
@@ -111,8 +112,24 @@ class ReportsTest(MasterCase):
         self.assertFalse(any(line.startswith('whole:') for line in warnings), warnings)
         # The verdict says so too.
         state = Recorder('/bad/state', MonitorState, PATIENCE)
-        self.assertIsNotNone(state.find(lambda m: m.verdict == MonitorState.NOT_CHECKED))
+        self.assertIsNotNone(state.find(lambda m: m.verdict == Verdicts.NOT_CHECKED))
         self.status_of('good', 'bodies', lambda s: s.level == DiagnosticStatus.OK and s.message == 'all bodies can be checked')
+
+    def test_parameters_that_nothing_reads_are_named_once_with_what_to_do(self):
+        log, state = Recorder('/rosout', Log, PATIENCE), Recorder('/old/state', MonitorState, PATIENCE)
+        self.start_monitor('old', '', {'field': {'sample_bits': 16, 'cells': 20}, 'allow_http': True,
+                                       'stop_distnce': 0.1})
+        self.assertIsNotNone(state.find(lambda m: m.reason.startswith('waiting: parameter robot_description')))
+        time.sleep(1.0)  # until its log is heard, too
+        rospy.set_param('/old/robot_description', sliders())
+        self.assertIsNotNone(state.find(lambda m: m.header.frame_id))
+        log.find(lambda m: 'nothing reads' in m.msg)
+        said = [m for m in log.messages if m.name == '/old' and 'nothing reads' in m.msg]
+        self.assertEqual([(m.level, m.msg) for m in said], [(
+            Log.WARN, 'Parameters that nothing reads: '
+            '/old/allow_http, which is gone: nothing is read over the network: put meshes into files or packages; '
+            '/old/field/sample_bits, which is gone: samples have 16 bits; '
+            '/old/stop_distnce, did you mean stop_distance?')])
 
     def test_torques_are_those_that_walls_do(self):
         # Elastic foundation: a ball of radius R pressed d deep into a plane.

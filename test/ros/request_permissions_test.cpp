@@ -18,22 +18,27 @@ class RequestPermissionsTest : public ChangingSceneCase {
   }
   static SceneChange attach(const std::string& name, std::vector<std::string> touch_links = {}) {
     SceneChange made = change(SceneChange::ATTACH, name);
-    made.link = "arm";
+    made.link_name = "arm";
     made.touch_links = std::move(touch_links);
     return made;
   }
 };
 
 TEST_F(RequestPermissionsTest, EachKindOfChangeNeedsItsPermission) {
+  SceneChange move = change(SceneChange::MOVE, "table"), append = box("table");
+  move.pose.orientation.w = 1.0;
+  append.operation = SceneChange::APPEND;
+  append.pose = {};
   const std::vector<std::pair<std::string, SceneChange>> kinds{{"add", box()},
-                                                               {"move", change(SceneChange::MOVE, "table")},
+                                                               {"move", append},
+                                                               {"move", move},
                                                                {"move", box("table")},  // replaces it
                                                                {"attach", attach("table")},
                                                                {"rules", rule(SceneChange::ALLOW, "table", "arm")},
                                                                {"rules", rule(SceneChange::CHECK, "table", "arm")},
                                                                {"rules", change(SceneChange::FORGET_RULES)},
                                                                {"clear", change(SceneChange::REMOVE, "table")},
-                                                               {"clear", change(SceneChange::CLEAR)}};
+                                                               {"clear", change(SceneChange::REMOVE, "*")}};
   const std::vector<std::string> all{"add", "move", "attach", "rules", "clear"};
   for (const auto& [kind, wanted] : kinds) {
     std::vector<std::string> others = all;
@@ -48,18 +53,13 @@ TEST_F(RequestPermissionsTest, EachKindOfChangeNeedsItsPermission) {
 TEST_F(RequestPermissionsTest, ToAttachOrDetachNeitherAddsNorMoves) {
   permit({"attach"});
   SceneChange speck = box("table");
-  speck.type = SceneChange::ATTACH;
-  speck.link = "arm";
-  SceneChange moved = attach("table");
-  moved.pose.position.x = 90.0;
-  moved.pose.orientation.w = 1.0;
-  for (const SceneChange& wanted : {speck, moved}) expectRefused(wanted, "requests/allow does not hold move");
-  speck.object = "box";
+  speck.operation = SceneChange::ATTACH;
+  speck.link_name = "arm";
+  expectRefused(speck, "requests/allow does not hold move");
+  speck.id = "box";
   expectRefused(speck, "requests/allow does not hold add");
   apply(attach("table"));
-  moved.type = SceneChange::DETACH;
-  expectRefused(moved, "requests/allow does not hold move");
-  moved.pose = {};
+  SceneChange moved = change(SceneChange::DETACH, "table");
   moved.header.frame_id = "belt";
   expectRefused(moved, "requests/allow does not hold move");
   EXPECT_EQ(refusal(change(SceneChange::DETACH, "table")), "");
@@ -69,8 +69,8 @@ TEST_F(RequestPermissionsTest, ToAttachOrDetachNeitherAddsNorMoves) {
 TEST_F(RequestPermissionsTest, WhatAttachAddsOrReplacesNeedsThatPermissionToo) {
   const auto attached = [](const std::string& name) {
     SceneChange made = box(name);
-    made.type = SceneChange::ATTACH;
-    made.link = "arm";
+    made.operation = SceneChange::ATTACH;
+    made.link_name = "arm";
     return made;
   };
   permit({"attach"});
@@ -85,7 +85,7 @@ TEST_F(RequestPermissionsTest, WhatAttachAddsOrReplacesNeedsThatPermissionToo) {
 
 TEST_F(RequestPermissionsTest, ByDefaultAllButLimitsIsAllowed) {
   EXPECT_EQ(refusal(box("table")), "");
-  EXPECT_EQ(refusal(change(SceneChange::CLEAR)), "");
+  EXPECT_EQ(refusal(change(SceneChange::REMOVE, "*")), "");
   EXPECT_TRUE(parameters_.requests.reset);
   EXPECT_FALSE(parameters_.requests.limits);
 }
@@ -95,7 +95,7 @@ TEST_F(RequestPermissionsTest, WhatIsProtectedStays) {
   apply(box());
   for (const SceneChange& wanted :
        {change(SceneChange::MOVE, "table"), box("table"), change(SceneChange::REMOVE, "table"),
-        change(SceneChange::REMOVE, "*"), change(SceneChange::CLEAR), attach("table"), attach("box", {"*"}),
+        change(SceneChange::REMOVE, "*"), change(SceneChange::APPEND, "table"), attach("table"), attach("box", {"*"}),
         attach("box", {"base"}), rule(SceneChange::ALLOW, "table", "arm"), rule(SceneChange::ALLOW, "box", "*")})
     expectRefused(wanted, "requests/protected");
   EXPECT_EQ(refusal(rule(SceneChange::CHECK, "table", "*")), "");
@@ -156,8 +156,8 @@ TEST_F(RequestPermissionsTest, TouchLinksFarFromTheHandAreToldAlsoIfEachIsNamed)
   permit({"add", "move", "attach"});
   const auto told = [&](const std::vector<std::string>& touch_links, const char* link = "hand") {
     SceneChange made = box();
-    made.type = SceneChange::ATTACH;
-    made.link = link;
+    made.operation = SceneChange::ATTACH;
+    made.link_name = link;
     made.touch_links = touch_links;
     apply(made);
     return scene_->weakened(description());

@@ -10,7 +10,7 @@ from std_srvs.srv import Empty
 
 from monitor_case import MovingBalls, Recorder, box, pose, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import MonitorState, SceneChange
+from sdf_ccd.msg import MonitorState, SceneChange, Verdicts
 from sdf_ccd.srv import UpdateScene
 
 WALL = [{'name': 'wall', 'type': 'box', 'size': [0.1, 1.0, 1.0], 'xyz': [2.0, 0.0, 0.0]}]
@@ -19,7 +19,7 @@ PARAMETERS = {'world': WALL, 'stop_distance': 0.02, 'warning_distance': 0.1, 'ra
 
 
 def rule(kind, a, b):
-    return SceneChange(type=kind, body_a=a, body_b=b)
+    return SceneChange(operation=kind, body_a=a, body_b=b)
 
 
 class RequestsTest(MasterCase):
@@ -34,7 +34,7 @@ class RequestsTest(MasterCase):
         cls.states = {name: Recorder('/%s/state' % name, MonitorState, PATIENCE) for name in ('stock', 'strict')}
         cls.update = {name: wait_for_service('/%s/update_scene' % name, UpdateScene) for name in ('stock', 'strict')}
         for states in cls.states.values():
-            assert states.find(lambda m: m.verdict == m.CLEAR)
+            assert states.find(lambda m: m.verdict == Verdicts.CLEAR)
 
     def state(self, name, version, test):
         return self.states[name].find_new(lambda m: m.scene_version >= version and test(m), 10.0)
@@ -58,32 +58,32 @@ class RequestsTest(MasterCase):
         self.assertIsNotNone(diagnostics.find(lambda m: any(
             'stock' in s.name and s.level == DiagnosticStatus.WARN and 'requests allow' in str(s.values)
             for s in m.status)))
-        answer = self.update['stock'](changes=[SceneChange(type=SceneChange.FORGET_RULES)])
+        answer = self.update['stock'](changes=[SceneChange(operation=SceneChange.FORGET_RULES)])
         found = self.state('stock', answer.scene_version, lambda m: True)
         self.assertEqual((found.pairs_allowed_by_requests, found.warnings), (0, []))
         diagnostics.close()
 
     def test_2_objects_of_the_parameters_that_go_are_named(self):
-        answer = self.update['stock'](changes=[SceneChange(type=SceneChange.REMOVE, object='wall')])
+        answer = self.update['stock'](changes=[SceneChange(operation=SceneChange.REMOVE, id='wall')])
         self.assertTrue(answer.success, answer.message)
         found = self.state('stock', answer.scene_version, lambda m: m.warnings)
         self.assertIsNotNone(found)
         self.assertIn('wall', found.warnings[0])
 
     def test_3_what_is_not_allowed_is_refused(self):
-        self.assert_refused(SceneChange(type=SceneChange.MOVE, object='thing', pose=pose(4.0)), 'requests/allow',
+        self.assert_refused(SceneChange(operation=SceneChange.MOVE, id='thing', pose=pose(4.0)), 'requests/allow',
                             'move')
         self.assert_refused(box('thing', pose(4.0)), 'requests/allow', 'move')
-        self.assert_refused(SceneChange(type=SceneChange.CLEAR), 'requests/protected', 'wall')
-        self.assert_refused(SceneChange(type=SceneChange.REMOVE, object='w*'), 'requests/protected', 'wall')
+        for pattern in ('*', 'w*'):
+            self.assert_refused(SceneChange(operation=SceneChange.REMOVE, id=pattern), 'requests/protected', 'wall')
         self.assert_refused(rule(SceneChange.ALLOW, '*', '*'), 'requests/protected')
         self.assert_refused(rule(SceneChange.ALLOW, 'thing', 'oth*'), 'requests/protected', 'other')
-        self.assert_refused(SceneChange(type=SceneChange.ATTACH, object='wall', link='ball'), 'requests/protected',
-                            'wall')
-        self.assert_refused(SceneChange(type=SceneChange.ATTACH, object='thing', link='ball', touch_links=['*']),
+        self.assert_refused(SceneChange(operation=SceneChange.ATTACH, id='wall', link_name='ball'),
+                            'requests/protected', 'wall')
+        self.assert_refused(SceneChange(operation=SceneChange.ATTACH, id='thing', link_name='ball', touch_links=['*']),
                             'requests/protected', 'other')
         answer = self.update['strict'](changes=[box('thing', pose(3.0)), rule(SceneChange.ALLOW, 'thing', 'ball'),
-                                                SceneChange(type=SceneChange.REMOVE, object='thing')])
+                                                SceneChange(operation=SceneChange.REMOVE, id='thing')])
         self.assertTrue(answer.success, answer.message)
 
     def test_4_a_reset_can_be_refused_and_comes_once_a_second_at_most(self):
@@ -101,7 +101,7 @@ class RequestsTest(MasterCase):
                 pass
         self.assertLessEqual(done, 4)
         self.assertGreaterEqual(done, 2)
-        self.assertGreater(len([m for m in heard.messages if m.verdict == m.CLEAR]), 10)
+        self.assertGreater(len([m for m in heard.messages if m.verdict == Verdicts.CLEAR]), 10)
 
     def test_5_limits_change_to_the_safe_side_only(self):
         monitor = dynamic_reconfigure.client.Client('/stock', timeout=20.0)

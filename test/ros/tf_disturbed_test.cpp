@@ -14,6 +14,7 @@
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::tf_disturbed_test {
 
@@ -280,7 +281,7 @@ class Episode {
                         cycle.origin + ros::Duration(cycle.motion.times[result.span.last])});
     }
     contradictions_ += !said_.back().contradicted_since.isZero();
-    contact_messages_ += said_.back().verdict == ContactArray::CONTACT;
+    contact_messages_ += said_.back().verdict == Verdicts::CONTACT;
   }
 
   static ros::Time stampOf(double time) { return ros::Time(100.0 + time); }
@@ -325,7 +326,7 @@ class Episode {
     bool is_clear = false;
     for (const ContactArray& said : said_) {
       if (!said.contradicted_since.isZero() && said.contradicted_since <= time) is_clear = false;
-      is_clear |= said.verdict == ContactArray::CLEAR && said.cycle_start <= time && time <= said.complete_until;
+      is_clear |= said.verdict == Verdicts::CLEAR && said.cycle_start <= time && time <= said.complete_until;
     }
     return is_clear;
   }

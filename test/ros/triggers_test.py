@@ -12,7 +12,7 @@ from tf2_msgs.msg import TFMessage
 
 from monitor_case import Recorder, transform
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray
+from sdf_ccd.msg import ContactArray, Verdicts
 
 PERIOD, EVERY = 0.02, 3    # of the ball's transforms [s]; every third is followed by another frame and joint states
 SECONDS = 3.0
@@ -40,7 +40,7 @@ class TriggersTest(MasterCase):
         cls.sender = threading.Thread(target=cls.send)
         cls.sender.start()
         for name in TRIGGERS:
-            assert cls.contacts[name].find(lambda m: m.verdict == ContactArray.CLEAR), name
+            assert cls.contacts[name].find(lambda m: m.verdict == Verdicts.CLEAR), name
 
     @classmethod
     def tearDownClass(cls):
@@ -89,9 +89,9 @@ class TriggersTest(MasterCase):
         # The last of a group: all poses are known, and no pair waits.
         self.assertGreater(counts['frames'], 0.8 * len(told['other']))
         self.assertLess(counts['frames'], 1.4 * len(told['other']))
-        whole = [m for m in said['frames'] if m.complete_until == m.header.stamp and m.delayed == 0]
+        whole = [m for m in said['frames'] if m.cycle.complete_until == m.header.stamp and m.cycle.delayed == 0]
         self.assertGreater(len(whole), 0.8 * counts['frames'])
-        self.assertLess(sum(m.delayed == 0 for m in said['tf']), 0.7 * counts['tf'])
+        self.assertLess(sum(m.cycle.delayed == 0 for m in said['tf']), 0.7 * counts['tf'])
 
     def test_without_news_they_begin_all_the_same(self):
         type(self).sends_joints = False
@@ -101,7 +101,7 @@ class TriggersTest(MasterCase):
         self.assertLess(len(said['joints']), SECONDS / PATIENT + 2)
         self.assertGreater(len(said['joints']), 0.5 * SECONDS / PATIENT)
         for earlier, later in zip(said['joints'], said['joints'][1:]):
-            self.assertEqual(earlier.header.stamp, later.cycle_start)  # no time is left out
+            self.assertEqual(earlier.header.stamp, later.cycle.start)  # no time is left out
 
 
 if __name__ == '__main__':

@@ -14,7 +14,7 @@ from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import Header
 
 from monitor_case import CUBE, MovingBalls, Recorder, box, pose, touches, wait_for_service
-from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange
+from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange, Verdicts
 from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
 
 
@@ -28,7 +28,7 @@ class WorldTest(unittest.TestCase):
         cls.update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
         cls.points = wait_for_service('/collision_monitor/query_points', QueryPoints)
         cls.get_plan = wait_for_service('/collision_monitor/get_plan', GetPlan)
-        assert cls.contacts.find_new(lambda m: m.verdict == ContactArray.CLEAR, 60.0), 'no complete cycle'
+        assert cls.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 60.0), 'no complete cycle'
 
     def change(self, *changes, **more):
         answer = self.update(changes=list(changes), **more)
@@ -38,13 +38,13 @@ class WorldTest(unittest.TestCase):
 
     def setUp(self):
         self.robot.ball = 0.0
-        self.change(SceneChange(type=SceneChange.CLEAR), SceneChange(type=SceneChange.FORGET_RULES))
+        self.change(SceneChange(operation=SceneChange.REMOVE, id='*'), SceneChange(operation=SceneChange.FORGET_RULES))
 
     def touching(self, a, b, version):
         return self.contacts.find_new(lambda m: m.scene_version == version and touches(m, a, b))
 
     def clear(self, version):
-        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == m.CLEAR)
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdicts.CLEAR)
 
     def test_an_object_comes_moves_and_goes(self):
         before = self.change().scene_version
@@ -52,10 +52,10 @@ class WorldTest(unittest.TestCase):
         self.assertEqual(answer.scene_version, before + 1)
         self.assertEqual(answer.objects, ['box'])
         self.assertIsNotNone(self.touching('ball', 'box', answer.scene_version))
-        moved = self.change(SceneChange(type=SceneChange.MOVE, object='box', pose=pose(0.4)))
+        moved = self.change(SceneChange(operation=SceneChange.MOVE, id='box', pose=pose(0.4)))
         self.assertIsNotNone(self.clear(moved.scene_version))
         self.assertEqual(moved.prepared, 0)
-        gone = self.change(SceneChange(type=SceneChange.REMOVE, object='box'))
+        gone = self.change(SceneChange(operation=SceneChange.REMOVE, id='box'))
         self.assertEqual(gone.objects, [])
         self.assertIsNotNone(self.states.find_new(lambda m: m.scene_version == gone.scene_version))
 
@@ -64,30 +64,55 @@ class WorldTest(unittest.TestCase):
         self.assertIsNotNone(self.touching('ball', 'box', answer.scene_version))
         lost = self.change(box('box', pose(), frame='nowhere'))
         found = self.states.find_new(lambda m: m.scene_version == lost.scene_version and any(
-            'nowhere' in line for line in m.missing))
+            'nowhere' in body.reason for body in m.unchecked))
         self.assertIsNotNone(found)
-        self.assertEqual(found.verdict, MonitorState.NOT_CHECKED)
+        self.assertEqual(found.verdict, Verdicts.NOT_CHECKED)
 
     def test_a_grasped_object_is_checked_against_the_world(self):
         self.change(box('part', pose(0.06, 0.0, 0.0)), box('shelf', pose(1.0, 0.0), (0.2, 1.0, 1.0)))
-        grasped = self.change(SceneChange(type=SceneChange.ATTACH, object='part', link='ball'))
+        grasped = self.change(SceneChange(operation=SceneChange.ATTACH, id='part', link_name='ball'))
         self.assertIsNotNone(self.clear(grasped.scene_version))  # ball and part touch, which is allowed
         self.robot.ball = 0.8
         self.assertIsNotNone(self.touching('part', 'shelf', grasped.scene_version))
         self.robot.ball = 0.3
         self.assertIsNotNone(self.clear(grasped.scene_version))
         time.sleep(0.3)
-        put = self.change(SceneChange(type=SceneChange.DETACH, object='part'))
+        put = self.change(SceneChange(operation=SceneChange.DETACH, id='part'))
         self.robot.ball = -0.5
         self.assertIsNotNone(self.clear(put.scene_version))
         answer = self.points(header=Header(), points=[Point(0.36, 0.0, 0.0)])
-        self.assertEqual(answer.bodies, ['part'])
+        self.assertEqual(answer.points[0].body, 'part')
         self.assertEqual(answer.scene_version, put.scene_version)
-        self.assertLess(answer.distances[0], -0.04)
+        self.assertLess(answer.points[0].distance, -0.04)
+
+    def test_shapes_are_appended_to_an_object(self):
+        far = self.change(box('box', pose(0.0, 3.0)))
+        append = SceneChange(operation=SceneChange.APPEND, id='box', primitive_poses=[pose(0.0, -3.0)],
+                             primitives=[SolidPrimitive(type=SolidPrimitive.BOX, dimensions=(0.1, 0.1, 0.1))])
+        self.assertIsNotNone(self.clear(far.scene_version))
+        both = self.change(append)
+        self.assertEqual(both.objects, ['box'])
+        self.assertIsNotNone(self.touching('ball', 'box', both.scene_version))
+
+    def test_a_pose_means_one_thing(self):
+        self.change(box('part', pose(0.06, 0.0, 0.0)))
+        for change, why in ((SceneChange(operation=SceneChange.ADD, id='new', primitives=box('new', pose()).primitives),
+                             'write orientation.w: 1'),
+                            (SceneChange(operation=SceneChange.MOVE, id='part'), 'write orientation.w: 1'),
+                            (SceneChange(operation=SceneChange.ATTACH, id='part', link_name='ball', pose=pose(0.1)),
+                             'MOVE it first'),
+                            (box('new', pose(), (0.1, 0.1)), '2 dimensions instead of 3')):
+            answer = self.update(changes=[change])
+            self.assertFalse(answer.success)
+            self.assertIn(why, answer.message)
+        self.change(SceneChange(operation=SceneChange.ATTACH, id='part', link_name='ball'))
+        answer = self.update(changes=[SceneChange(operation=SceneChange.DETACH, id='part', pose=pose(0.1))])
+        self.assertIn('MOVE it first', answer.message)
+        self.change(SceneChange(operation=SceneChange.DETACH, id='part'))
 
     def test_pairs_are_allowed_and_checked_again(self):
         self.change(box('box', pose()))
-        allowed = self.change(SceneChange(type=SceneChange.ALLOW, body_a='b?x', body_b='*'))
+        allowed = self.change(SceneChange(operation=SceneChange.ALLOW, body_a='b?x', body_b='*'))
         self.assertIsNotNone(self.clear(allowed.scene_version))
         plan = self.get_plan().plan
         self.assertEqual(plan.scene_version, allowed.scene_version)
@@ -95,14 +120,14 @@ class WorldTest(unittest.TestCase):
                     for a, b, r in zip(plan.left_out_a, plan.left_out_b, plan.left_out_reason)}
         self.assertEqual(left_out[('ball', 'box')], 'update_scene: b?x - *')
         self.assertIsNotNone(self.plans.find(lambda m: m.scene_version == allowed.scene_version))
-        checked = self.change(SceneChange(type=SceneChange.CHECK, body_a='box', body_b='ball'))
+        checked = self.change(SceneChange(operation=SceneChange.CHECK, body_a='box', body_b='ball'))
         self.assertIsNotNone(self.touching('ball', 'box', checked.scene_version))
 
     def test_all_changes_or_none(self):
         before = self.change(box('kept', pose(1.0)))
-        bad = SceneChange(type=SceneChange.ADD, object='bad', primitives=[
+        bad = SceneChange(operation=SceneChange.ADD, id='bad', pose=pose(0.0), primitives=[
             SolidPrimitive(type=SolidPrimitive.BOX, dimensions=(0.1, float('nan'), 0.1))])
-        answer = self.update(changes=[box('new', pose(1.0)), SceneChange(type=SceneChange.REMOVE, object='kept'), bad])
+        answer = self.update(changes=[box('new', pose(1.0)), SceneChange(operation=SceneChange.REMOVE, id='kept'), bad])
         self.assertFalse(answer.success)
         self.assertEqual(answer.failed_change, 2)
         self.assertIn('primitives[0]', answer.message)
@@ -111,7 +136,7 @@ class WorldTest(unittest.TestCase):
 
     def test_what_cannot_be_made_is_named(self):
         point = Mesh(vertices=[Point(0, 0, 0)] * 3, triangles=[MeshTriangle(vertex_indices=(0, 1, 2))])
-        bad = SceneChange(type=SceneChange.ADD, object='bad', meshes=[point])
+        bad = SceneChange(operation=SceneChange.ADD, id='bad', pose=pose(0.0), meshes=[point])
         answer = self.update(changes=[box('new', pose(1.0)), bad, box('newer', pose(1.0))])
         self.assertFalse(answer.success)
         self.assertEqual(answer.failed_change, 1, answer.message)
@@ -122,10 +147,10 @@ class WorldTest(unittest.TestCase):
         quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
         triangles = [MeshTriangle(t) for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
         mesh = Mesh(vertices=[Point(*c) for c in corners], triangles=triangles)
-        answer = self.change(SceneChange(type=SceneChange.ADD, object='mesh', pose=pose(0.05), meshes=[mesh]))
+        answer = self.change(SceneChange(operation=SceneChange.ADD, id='mesh', pose=pose(0.05), meshes=[mesh]))
         self.assertGreaterEqual(answer.prepared, 1)
         self.assertIsNotNone(self.touching('ball', 'mesh', answer.scene_version))
-        again = self.change(SceneChange(type=SceneChange.ADD, object='twin', pose=pose(3.0), meshes=[mesh]))
+        again = self.change(SceneChange(operation=SceneChange.ADD, id='twin', pose=pose(3.0), meshes=[mesh]))
         self.assertEqual(again.prepared, 0)
 
     def test_meshes_from_files(self):
@@ -135,10 +160,10 @@ class WorldTest(unittest.TestCase):
             out.write(CUBE)
         # A cube of 1 m with the ball in its corner, and one in millimetres, first beside the ball, then around it.
         for uri in (file, 'file://' + file):
-            answer = self.change(SceneChange(type=SceneChange.ADD, object='cube', pose=pose(-0.01, -0.01, -0.01),
+            answer = self.change(SceneChange(operation=SceneChange.ADD, id='cube', pose=pose(-0.01, -0.01, -0.01),
                                              mesh_resources=[uri]))
             self.assertIsNotNone(self.touching('ball', 'cube', answer.scene_version))
-            small = self.change(SceneChange(type=SceneChange.ADD, object='cube', pose=pose(0.05, 0.0, 0.0),
+            small = self.change(SceneChange(operation=SceneChange.ADD, id='cube', pose=pose(0.05, 0.0, 0.0),
                                             mesh_resources=[uri], mesh_resource_scales=[Vector3(0.1, 0.1, 0.1)]))
             self.assertIsNotNone(self.clear(small.scene_version))
             self.robot.ball = 0.06
@@ -147,7 +172,7 @@ class WorldTest(unittest.TestCase):
             time.sleep(0.2)
         # The mesh was read when the object was added.
         os.remove(file)
-        moved = self.change(SceneChange(type=SceneChange.MOVE, object='cube', pose=pose(-0.05, -0.05, -0.05)))
+        moved = self.change(SceneChange(operation=SceneChange.MOVE, id='cube', pose=pose(-0.05, -0.05, -0.05)))
         self.assertIsNotNone(self.touching('ball', 'cube', moved.scene_version))
 
     def test_hostile_files_change_nothing(self):
@@ -172,7 +197,8 @@ class WorldTest(unittest.TestCase):
             'ftp://127.0.0.1/mesh.stl', '://', '/proc/self/environ', '/proc/self/mem']
         for uri in uris:
             start = time.monotonic()
-            answer = self.update(changes=[SceneChange(type=SceneChange.ADD, object='bad', mesh_resources=[uri])])
+            answer = self.update(changes=[SceneChange(operation=SceneChange.ADD, id='bad', pose=pose(0.0),
+                                                      mesh_resources=[uri])])
             self.assertFalse(answer.success, uri[:80])
             self.assertEqual(answer.failed_change, 0, uri[:80])
             self.assertEqual(answer.scene_version, before)
@@ -182,9 +208,10 @@ class WorldTest(unittest.TestCase):
             self.assertNotIn('root:', answer.message)
             self.assertLess(time.monotonic() - start, 10.0, uri[:80])
         # Worlds, maps and files to write cannot be elsewhere, either.
-        for change in (SceneChange(type=SceneChange.LOAD, file=folder + '/link.off'),
-                       SceneChange(type=SceneChange.LOAD, file=folder + '/pipe.off'),
-                       SceneChange(type=SceneChange.ADD, object='bad', octomap_file=folder + '/zero.off')):
+        for change in (SceneChange(operation=SceneChange.LOAD, file=folder + '/link.off'),
+                       SceneChange(operation=SceneChange.LOAD, file=folder + '/pipe.off'),
+                       SceneChange(operation=SceneChange.ADD, id='bad', pose=pose(0.0),
+                                   octomap_file=folder + '/zero.off')):
             self.assertFalse(self.update(changes=[change]).success)
         for file in (folder + '/etc/out.scene', '/etc/out.scene', folder + '/../../etc/out.scene'):
             self.assertFalse(self.update(save_file=file).success, file)
@@ -199,11 +226,11 @@ class WorldTest(unittest.TestCase):
         folder = tempfile.mkdtemp(dir='/tmp')
         file = os.path.join(folder, 'w.scene')
         self.change(box('a', pose(0.0)), box('b', pose(0.5)), save_file=file)
-        self.change(SceneChange(type=SceneChange.CLEAR))
-        answer = self.change(SceneChange(type=SceneChange.LOAD, file=file))
+        self.change(SceneChange(operation=SceneChange.REMOVE, id='*'))
+        answer = self.change(SceneChange(operation=SceneChange.LOAD, file=file))
         self.assertEqual(answer.objects, ['a', 'b'])
         self.assertIsNotNone(self.touching('ball', 'a', answer.scene_version))
-        refused = self.update(changes=[SceneChange(type=SceneChange.LOAD, file='/etc/w.scene')])
+        refused = self.update(changes=[SceneChange(operation=SceneChange.LOAD, file='/etc/w.scene')])
         self.assertIn('resource_roots', refused.message)
 
     def test_no_contact_is_missed_while_the_scene_changes(self):
@@ -234,7 +261,7 @@ class WorldTest(unittest.TestCase):
             self.assertTrue(touches(message, 'ball', 'wall'), message)
         ends = [m.header.stamp for m in heard]
         for earlier, later in zip(heard, heard[1:]):
-            self.assertEqual(earlier.header.stamp, later.cycle_start)  # no time is left out
+            self.assertEqual(earlier.header.stamp, later.cycle.start)  # no time is left out
         self.assertEqual(ends, sorted(ends))
 
 

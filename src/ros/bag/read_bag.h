@@ -11,6 +11,7 @@
 #include <ros/serialization.h>
 #include <rosbag/exceptions.h>
 #include <rosbag/message_instance.h>
+#include <rosbag/structures.h>
 #include <boost/make_shared.hpp>
 
 namespace sdf_ccd {
@@ -42,6 +43,17 @@ void readBag(const std::string& file, const Call& call) {
     throw std::runtime_error(file + ": is cut short or damaged: " + error.what() + ": try `rosbag reindex " + file +
                              "`, which keeps what can be read");
   }
+}
+
+/// Throws if the connection's messages are of type Message, but of another definition: a reader would pass over them,
+/// or misread them.
+/// @param help  what to do about it.
+template <class Message>
+void requireDefinition(const rosbag::ConnectionInfo& connection, const std::string& file, const std::string& help) {
+  const std::string ours = ros::message_traits::md5sum<Message>(), type = ros::message_traits::datatype<Message>();
+  if (connection.datatype != type || connection.md5sum == ours) return;
+  throw std::runtime_error(file + ": " + connection.topic + " holds " + type + " of another definition, " +
+                           connection.md5sum + " instead of " + ours + ": " + help);
 }
 
 /// Reads a message. Memory for the elements of a list is reserved before they are read, whatever their number is, so

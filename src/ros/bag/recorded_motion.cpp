@@ -18,6 +18,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr std::size_t kNamed = 4;  // examples in an error
+constexpr const char* kConvert = "convert the bag with `rosbag fix`";
 
 bool isStatic(const std::string& topic) {
   return withoutLeadingSlash(topic) == "tf_static";
@@ -60,6 +61,8 @@ void RecordedMotion::findTopics() {
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     const std::string name = withoutLeadingSlash(connection->topic);
     const bool is_read = name == "tf" || name == "tf_static";
+    if (is_read) requireDefinition<tf2_msgs::TFMessage>(*connection, file_, kConvert);
+    requireDefinition<sensor_msgs::JointState>(*connection, file_, kConvert);
     if (connection->md5sum == tf_type) (is_read ? tf : other_tf).insert(connection->topic);
     if (connection->datatype == "sensor_msgs/JointState") joint_states.insert(connection->topic);
   }

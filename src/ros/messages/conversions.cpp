@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
+#include <utility>
 
+#include "common/refuse.h"
 #include "monitor/pair_result.h"
 #include "motion/valid_pose.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd {
 namespace {
 
-static_assert(static_cast<int>(Verdict::kClear) == PairContact::CLEAR, "as in the messages");
-static_assert(static_cast<int>(Verdict::kContact) == PairContact::CONTACT, "as in the messages");
-static_assert(static_cast<int>(Verdict::kUncertain) == PairContact::UNCERTAIN, "as in the messages");
-static_assert(static_cast<int>(Verdict::kNotChecked) == PairContact::NOT_CHECKED, "as in the messages");
+static_assert(static_cast<int>(Verdict::kClear) == Verdicts::CLEAR, "as in the messages");
+static_assert(static_cast<int>(Verdict::kContact) == Verdicts::CONTACT, "as in the messages");
+static_assert(static_cast<int>(Verdict::kUncertain) == Verdicts::UNCERTAIN, "as in the messages");
+static_assert(static_cast<int>(Verdict::kNotChecked) == Verdicts::NOT_CHECKED, "as in the messages");
 
 ros::Time toTime(std::chrono::nanoseconds since_epoch) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(since_epoch.count()));
@@ -42,22 +44,28 @@ void setPointContact(const ContactPoint& point, const ros::Time& start, PointCon
   message.normal = toVector3(point.normal_W);
 }
 
+/// @param names  of the two in their message, for errors.
 template <class Point>
-Isometry3d checkedPose(const Point& p, const geometry_msgs::Quaternion& q) {
-  const std::optional<Isometry3d> pose = poseOf({p.x, p.y, p.z}, {q.w, q.x, q.y, q.z});
-  if (!pose) throw std::invalid_argument("orientation is not a unit quaternion");
-  if (!pose->translation().allFinite()) throw std::invalid_argument("position is not finite");
+Isometry3d checkedPose(const Point& p, const geometry_msgs::Quaternion& q,
+                       const std::pair<const char*, const char*>& names) {
+  const auto [position, orientation] = names;
+  const Quaterniond given(q.w, q.x, q.y, q.z);
+  if (given.coeffs().isZero(0.0))
+    refuse(std::string(orientation) + " is a quaternion of zeros: write " + orientation + ".w: 1");
+  if (!isNearOrigin({p.x, p.y, p.z})) refuse(std::string(position) + " is not finite, or too far from the origin");
+  const std::optional<Isometry3d> pose = poseOf({p.x, p.y, p.z}, given);
+  if (!pose) refuse(std::string(orientation) + " is not a unit quaternion");
   return *pose;
 }
 
 }  // namespace
 
 Isometry3d toIsometry(const geometry_msgs::Pose& pose) {
-  return checkedPose(pose.position, pose.orientation);
+  return checkedPose(pose.position, pose.orientation, {"position", "orientation"});
 }
 
 Isometry3d toIsometry(const geometry_msgs::Transform& transform) {
-  return checkedPose(transform.translation, transform.rotation);
+  return checkedPose(transform.translation, transform.rotation, {"translation", "rotation"});
 }
 
 Vector3d toEigen(const geometry_msgs::Point& point) {
@@ -108,6 +116,14 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   return message;
 }
 
+ErrorBounds toErrorBounds(const ErrorBound& error) {
+  ErrorBounds message;
+  message.total = error.total();
+  message.chord = error.chord;
+  message.gap = error.gap;
+  return message;
+}
+
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
   if (!isTimed(pair)) return holdsSample({pair.deepest.time, pair.deepest.time}, cycle.samples);
   return std::any_of(pair.intervals.begin(), pair.intervals.end(),
@@ -144,7 +160,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.wrench_on_b = toWrench(pair.on_b_W);
   message.origin_a = toPoint(cycle.motion.pose(pair.body_a, pair.span.last).translation());
   message.origin_b = toPoint(cycle.motion.pose(pair.body_b, pair.span.last).translation());
-  setErrorBound(pair.error, message);
+  message.error_bound = toErrorBounds(pair.error);
   message.contact_error_bound = pair.contact_error.total();
 }
 

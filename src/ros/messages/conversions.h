@@ -13,12 +13,13 @@
 
 #include "monitor/contact_tracker.h"
 #include "sdf_ccd/Contact.h"
+#include "sdf_ccd/ErrorBounds.h"
 #include "sdf_ccd/PairContact.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {
 
-/// @throws std::invalid_argument if a number is not finite or the orientation is not a unit quaternion.
+/// @throws std::invalid_argument if a number is not finite or too large, or the orientation is not a unit quaternion.
 Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 Isometry3d toIsometry(const geometry_msgs::Transform& transform);
 
@@ -47,15 +48,8 @@ struct CycleContext {
 /// Whether the pair touches at one of the recorded times.
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
-/// Sets the bound and its parts in a message.
-template <class Message>
-void setErrorBound(const ErrorBound& error, Message& message) {
-  message.error_bound = error.total();
-  message.error_field = error.field;
-  message.error_chord = error.chord;
-  message.error_root = error.root;
-  message.error_gap = error.gap;
-}
+/// The bound of a verdict, which has no other sources: surfaces decide.
+ErrorBounds toErrorBounds(const ErrorBound& error);
 
 /// Sets all fields of the message, whose memory is reused; so do all functions named set….
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);

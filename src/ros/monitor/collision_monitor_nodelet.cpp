@@ -8,6 +8,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "body/geometry_keys.h"
+#include "common/counted.h"
 #include "common/number_text.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
@@ -118,7 +119,8 @@ void CollisionMonitor::waitForParameters() {
 void CollisionMonitor::setUp() {
   reportIdle("reading the robot description");
   waitForParameters();
-  for (const std::string& name : parameters_.unknown) NODELET_WARN("Ignored, as it is no parameter: %s", name.c_str());
+  if (const std::vector<std::string>& unused = parameters_.unused; !unused.empty())
+    NODELET_WARN("Parameters that nothing reads: %s", firstOf(unused, unused.size(), "; ").c_str());
   const std::string directory = std::filesystem::path(parameters_.urdf_file).parent_path().string();
   described_ = describeScene(
       parameters_, [&](const std::string& uri) { return loadLocalResource(uri, ros::package::getPath, directory); });

@@ -8,25 +8,22 @@
 #include "monitor/pair_result.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
+#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd {
-
 namespace {
 
-/// Sets what both messages tell of a cycle.
-template <typename Message>
-void setCycle(const MonitorLoop& loop, Message& message) {
-  const TrackedCycle& cycle = loop.cycle();
-  const CycleResult& result = loop.result();
-  message.header.stamp = cycle.end;
-  message.header.frame_id = loop.fixedFrame();
-  message.scene_version = loop.world()->version();
-  message.cycle_start = cycle.start;
+void setStatus(const TrackedCycle& cycle, const CycleResult& result, CycleStatus& message) {
+  message.start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
-  message.verdict = static_cast<std::uint8_t>(result.verdict);
-  setUncheckedCycle(loop, message.reason);
-  setErrorBound(result.error, message);
+  message.error_bound = toErrorBounds(result.error);
+  message.checked = result.checked;
+  message.skipped = result.skipped;
+  message.not_checked = result.not_checked;
+  message.delayed = result.delayed;
+  message.postponed = result.postponed;
+  message.incomplete = result.incomplete;
   message.delayed_since = cycle.delayed_since;
   message.contradicted_since = ros::Time();
   message.late_frames.clear();
@@ -37,47 +34,26 @@ void setCycle(const MonitorLoop& loop, Message& message) {
   }
 }
 
-/// Counts a pair of the body, if the body is the reason why it is not checked.
-void addUnchecked(const MonitorLoop& loop, int body, const ros::Time& since, std::vector<UncheckedBody>& bodies) {
-  const std::string& reason = uncheckedReason(loop, body);
-  if (reason.empty()) return;
-  const std::string& name = loop.scene().bodies[body].name;
-  auto entry =
-      std::find_if(bodies.begin(), bodies.end(), [&](const UncheckedBody& other) { return other.body == name; });
-  if (entry == bodies.end()) {
-    entry = bodies.emplace(bodies.end());
-    entry->body = name;
-    entry->reason = reason;
-    entry->since = since;
-    entry->pairs = 0;
-  }
-  entry->since = std::min(entry->since, since);
-  ++entry->pairs;
+/// Sets what both messages tell of a cycle.
+template <typename Message>
+void setCycle(const MonitorLoop& loop, Message& message) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  message.header.stamp = cycle.end;
+  message.header.frame_id = loop.fixedFrame();
+  message.scene_version = loop.world()->version();
+  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  setUncheckedCycle(loop, message.reason);
+  setStatus(cycle, result, message.cycle);
+  setUncheckedBodies(loop, message.unchecked);
 }
 
-/// Sets the pairs that are neither clear nor delayed. Pairs of bodies that could not be checked at all are only
-/// counted, in `unchecked`.
-void setPairs(const MonitorLoop& loop, ContactArray& message) {
-  const CycleContext context = contextOf(loop);
-  // Those that could not be built are the same in all cycles.
-  message.unchecked = loop.unbuilt().bodies;
-  for (UncheckedBody& body : message.unchecked) body.since = loop.cycle().start;
-  const CycleResult& result = loop.result();
-  const auto isUnbuilt = [&](int body) { return !loop.scene().bodies[body].failure.empty(); };
-  const std::vector<std::string>& missing = loop.cycle().motion.missing;
-  const bool misses = std::any_of(missing.begin(), missing.end(), [](const std::string& why) { return !why.empty(); });
-  for (std::size_t i = 0; misses && i < result.failed.size(); ++i) {
-    const PairResult& pair = result.pairs[result.failed[i]];
-    for (const int body : {pair.body_a, pair.body_b})
-      if (!isUnbuilt(body)) addUnchecked(loop, body, loop.cycle().start, message.unchecked);
-  }
+/// Sets the pairs that are neither clear nor delayed, without those of bodies that could not be checked at all.
+void setPairs(const MonitorLoop& loop, std::vector<PairContact>& messages) {
   const auto isListed = [&](const PairResult& pair) {
-    if (pair.verdict != Verdict::kNotChecked || !isOfUncheckedBody(loop, pair)) return true;
-    const ros::Time since = context.start + ros::Duration(context.motion.times[pair.span.first]);
-    for (const int body : {pair.body_a, pair.body_b}) addUnchecked(loop, body, since, message.unchecked);
-    return false;
+    return pair.verdict != Verdict::kNotChecked || !isOfUncheckedBody(loop, pair);
   };
-  setPairContacts(loop.result(), context, isListed, message.pairs);
+  setPairContacts(loop.result(), contextOf(loop), isListed, messages);
 }
 
 void setContacts(const MonitorLoop& loop, std::vector<Contact>& messages) {
@@ -119,16 +95,9 @@ CycleContext contextOf(const MonitorLoop& loop) {
 }
 
 void setContactArray(const MonitorLoop& loop, ContactArray& message) {
-  const CycleResult& result = loop.result();
   setCycle(loop, message);
-  setPairs(loop, message);
+  setPairs(loop, message.pairs);
   setContacts(loop, message.contacts);
-  message.checked = result.checked;
-  message.skipped = result.skipped;
-  message.postponed = result.postponed;
-  message.incomplete = result.incomplete;
-  message.not_checked = result.not_checked;
-  message.delayed = result.delayed;
 }
 
 ContactArray toContactArray(const MonitorLoop& loop) {
@@ -165,19 +134,11 @@ bool hasScalars(const MonitorLoop& loop) {
 }
 
 void setMonitorState(const MonitorLoop& loop, const ros::Time& now, MonitorState& message) {
-  const CycleResult& result = loop.result();
   setCycle(loop, message);
-  setMissingBodies(loop, loop.unbuilt().lines, message.missing);
   loop.warnings().copyTo(message.warnings);
   message.latency = secondsBetween(loop.cycle().end, now);
-  message.contact_error_bound = result.contact_error;
+  message.contact_error_bound = loop.result().contact_error;
   setScalars(loop, message);
-  message.pairs_checked = result.checked;
-  message.pairs_skipped = result.skipped;
-  message.pairs_postponed = result.postponed;
-  message.pairs_incomplete = result.incomplete;
-  message.pairs_not_checked = result.not_checked;
-  message.pairs_delayed = result.delayed;
   message.pairs_allowed_by_requests = static_cast<std::uint32_t>(loop.world()->allowed_by_requests);
 }
 
@@ -191,9 +152,9 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
   ContactArray message;
   message.header.frame_id = loop.fixedFrame();
   message.scene_version = loop.world()->version();
-  message.header.stamp = message.cycle_start = loop.cycle().end;
-  message.complete_until = loop.cycle().complete_until;
-  message.verdict = ContactArray::NOT_CHECKED;
+  message.header.stamp = message.cycle.start = loop.cycle().end;
+  message.cycle.complete_until = loop.cycle().complete_until;
+  message.verdict = Verdicts::NOT_CHECKED;
   message.reason = reason;
   setContacts(loop, message.contacts);
   return message;
@@ -201,9 +162,9 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
 
 ContactArray toGap(const MonitorLoop& loop, const TimePart& gap, const std::string& reason) {
   ContactArray message = toUncheckedContacts(loop, reason);
-  message.cycle_start = message.complete_until = gap.from;
+  message.cycle.start = message.cycle.complete_until = gap.from;
   message.header.stamp = gap.until;
-  message.not_checked = static_cast<std::uint32_t>(loop.scene().pairs.size());
+  message.cycle.not_checked = static_cast<std::uint32_t>(loop.scene().pairs.size());
   message.contacts.clear();  // they were reported at the start of the gap
   return message;
 }
@@ -215,7 +176,7 @@ MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fi
   message.scene_version = scene_version;
   message.header.stamp = now;
   message.header.frame_id = fixed_frame;
-  message.verdict = MonitorState::NOT_CHECKED;
+  message.verdict = Verdicts::NOT_CHECKED;
   message.reason = reason;
   message.proximity = MonitorState::STOP;  // also before it is known whether there are thresholds
   return message;

@@ -92,9 +92,7 @@ void Diagnostics::cycles(DiagnosticStatusWrapper& status) const {
   status.addf("latency [ms]", "%.1f", 1e3 * health_.latency);
   status.addf("run time [ms]", "%.2f", 1e3 * health_.run_time);
   status.addf("error bound [mm]", "%.3f", 1e3 * health_.error.total());
-  status.addf("error bound: field [mm]", "%.3f", 1e3 * health_.error.field);
   status.addf("error bound: chords and motion [mm]", "%.3f", 1e3 * health_.error.chord);
-  status.addf("error bound: contact times [mm]", "%.3f", 1e3 * health_.error.root);
   status.addf("error bound: gaps between points [mm]", "%.3f", 1e3 * health_.error.gap);
   status.addf("error bound of contacts [mm]", "%.3f", 1e3 * health_.contact_error);
   status.add("pairs", health_.pairs);

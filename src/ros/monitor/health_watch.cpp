@@ -29,7 +29,7 @@ void setFinding(const CycleSafety& safety, const MonitorState& state, std::strin
     text = state.reason;
   } else {
     const bool is_error = safety.health == Health::kError;
-    text += counted(is_error ? state.pairs_not_checked : state.pairs_delayed, "pair");  // short: allocates nothing
+    text += counted(is_error ? state.cycle.not_checked : state.cycle.delayed, "pair");  // short: allocates nothing
     text += is_error ? " could not be checked" : " wait for late transforms";
   }
 }
@@ -82,11 +82,11 @@ void HealthWatch::recordCycle(const MonitorLoop& loop, const MonitorState& state
   health_.safety = safety.health;
   setFinding(safety, state, health_.finding);
   health_.latency = state.latency;
-  health_.age = secondsBetween(state.complete_until, sent);
-  health_.run_time = state.run_time;
+  health_.age = secondsBetween(state.cycle.complete_until, sent);
+  health_.run_time = state.cycle.run_time;
   health_.error = result.error;
   health_.contact_error = result.contact_error;
-  setMissingBodies(loop, {}, health_.missing);
+  setMissingBodies(loop, health_.missing);
   health_.pairs_delayed = result.delayed;
   health_.pairs_postponed = result.postponed;
   health_.pairs_incomplete = result.incomplete;

@@ -45,24 +45,15 @@ CycleMotion presentPoses(const TfHistory& history, const std::vector<TrackedBody
   return motion;
 }
 
-}  // namespace
-
-UnbuiltBodies unbuiltBodies(const Scene& scene) {
+/// Per body: the number of its pairs.
+std::vector<std::uint32_t> pairsOf(const Scene& scene) {
   std::vector<std::uint32_t> pairs(scene.bodies.size(), 0);
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) ++pairs[static_cast<std::size_t>(body)];
-  UnbuiltBodies unbuilt;
-  unbuilt.lines = failedBodies(scene);
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Body& body = scene.bodies[b];
-    if (body.failure.empty() || pairs[b] == 0) continue;
-    UncheckedBody& entry = unbuilt.bodies.emplace_back();
-    entry.body = body.name;
-    entry.reason = body.failure;
-    entry.pairs = pairs[b];
-  }
-  return unbuilt;
+  return pairs;
 }
+
+}  // namespace
 
 MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedScene described,
                          const MonitorParameters& parameters)
@@ -80,7 +71,7 @@ MonitorLoop::MonitorLoop(std::shared_ptr<const CheckedWorld> world, DescribedSce
           described_.robot, [this](const std::string& frame) { return described_.frames().linkOf(frame); },
           parameters.proximity.pairs),
       traits_(traits_finder_.of(world_->scene(), world_->description())),
-      unbuilt_(unbuiltBodies(monitor_.scene())) {
+      pairs_of_bodies_(pairsOf(monitor_.scene())) {
   OverlapNotes overlaps = overlapNotes(described_.overlaps, described_.overlap_rule, world_->scene());
   setOverlaps(overlaps);
 }
@@ -111,7 +102,7 @@ std::unique_ptr<LoopChange> MonitorLoop::prepare(std::shared_ptr<const CheckedWo
   change->distances = std::make_unique<PairDistances>(next->snapshot->scene);
   change->overlaps = overlapNotes(described_.overlaps, described_.overlap_rule, scene);
   change->traits = traits_finder_.of(scene, next->description());
-  change->unbuilt = unbuiltBodies(scene);
+  change->pairs_of_bodies = pairsOf(scene);
   constexpr std::size_t kPoses = 16;  // per body and cycle, usually fewer
   CycleMotion& motion = change->cycle.motion;
   motion.X_WB.resize(scene.bodies.size());
@@ -136,7 +127,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);
   traits_.swap(change.traits);
-  std::swap(unbuilt_, change.unbuilt);
+  pairs_of_bodies_.swap(change.pairs_of_bodies);
   std::swap(cycle_, change.cycle);
   cycle_.start = change.cycle.start;
   cycle_.end = change.cycle.end;

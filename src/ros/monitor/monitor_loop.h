@@ -10,16 +10,8 @@
 #include "ros/parameters/parameters.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
-#include "sdf_ccd/UncheckedBody.h"
 
 namespace sdf_ccd {
-
-/// The bodies of a scene that could not be built, with the number of their pairs, none of which is ever checked.
-struct UnbuiltBodies {
-  std::vector<UncheckedBody> bodies;  ///< without the time
-  std::vector<std::string> lines;     ///< "body: reason"
-};
-UnbuiltBodies unbuiltBodies(const Scene& scene);
 
 /// The parts of a loop for another world, made in advance by MonitorLoop::prepare(); after MonitorLoop::adopt(), the
 /// loop's former parts, to be destroyed by a thread that is not time-critical.
@@ -32,7 +24,7 @@ struct LoopChange {
   ContactTracker::Change contacts;
   std::unique_ptr<PairDistances> distances;
   std::vector<PairTraits> traits;  ///< per pair
-  UnbuiltBodies unbuilt;
+  std::vector<std::uint32_t> pairs_of_bodies;
   TrackedCycle cycle;
   OverlapNotes overlaps;
 };
@@ -88,7 +80,8 @@ class MonitorLoop {
   /// What was requested of the last cycle.
   const CycleRequest& request() const { return request_; }
 
-  const UnbuiltBodies& unbuilt() const { return unbuilt_; }
+  /// Per body: the number of its pairs.
+  const std::vector<std::uint32_t>& pairsOfBodies() const { return pairs_of_bodies_; }
 
   /// The contacts over time, if cycles are requested with contacts (CycleRequest::contacts); else there are none. kJump
   /// and reset() end all of them.
@@ -133,7 +126,7 @@ class MonitorLoop {
   std::unique_ptr<PairDistances> distances_;
   RobotPairTraits traits_finder_;
   std::vector<PairTraits> traits_;
-  UnbuiltBodies unbuilt_;
+  std::vector<std::uint32_t> pairs_of_bodies_;
   StandingWarnings warnings_;
   OverlapNotes overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested

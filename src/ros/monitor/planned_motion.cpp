@@ -41,8 +41,8 @@ void requireSize(std::size_t given, std::size_t wanted, const std::string& what)
 
 void requireNamedOnce(const QueryMotion::Request& request) {
   std::set<std::string> names;
-  for (const auto* list :
-       {&request.trajectory.joint_names, &request.other_joints, &request.multi_dof_trajectory.joint_names}) {
+  for (const auto* list : {&request.joint_trajectory.joint_names, &request.other_joints,
+                           &request.multi_dof_joint_trajectory.joint_names}) {
     for (const std::string& name : *list) {
       if (!names.insert(name).second) refuse("joint " + name + " is named twice");
     }
@@ -79,9 +79,9 @@ RobotTrajectory toRobotTrajectory(const trajectory_msgs::JointTrajectory& trajec
 RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory& trajectory,
                                   const ros::Duration& start, const PlannedScene& planned) {
   RobotTrajectory result;
-  result.times = timesOf(trajectory.points, start, "the multi_dof_trajectory");
+  result.times = timesOf(trajectory.points, start, "the multi_dof_joint_trajectory");
   for (std::size_t i = 0; i < result.times.size(); ++i) {
-    const std::string what = "point " + std::to_string(i) + " of the multi_dof_trajectory";
+    const std::string what = "point " + std::to_string(i) + " of the multi_dof_joint_trajectory";
     const auto& transforms = trajectory.points[i].transforms;
     requireSize(transforms.size(), trajectory.joint_names.size(), what);
     RobotState state;
@@ -101,7 +101,7 @@ RobotTrajectory toRobotTrajectory(const trajectory_msgs::MultiDOFJointTrajectory
 }
 
 bool movesRoot(const QueryMotion::Request& request, const PlannedScene& planned) {
-  const auto& names = request.multi_dof_trajectory.joint_names;
+  const auto& names = request.multi_dof_joint_trajectory.joint_names;
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
     return name == planned.base_joint || name == planned.robot.root();
   });
@@ -110,20 +110,20 @@ bool movesRoot(const QueryMotion::Request& request, const PlannedScene& planned)
 /// The joint positions and poses in the request, at all its times.
 RobotTrajectory namedTrajectory(const QueryMotion::Request& request, const PlannedScene& planned) {
   requireNamedOnce(request);
-  const auto& joints = request.trajectory.points;
-  const auto& multi_dof = request.multi_dof_trajectory.points;
+  const auto& joints = request.joint_trajectory.points;
+  const auto& multi_dof = request.multi_dof_joint_trajectory.points;
   const ros::Duration start = joints.empty() ? multi_dof.front().time_from_start : joints.front().time_from_start;
   RobotTrajectory named;
   if (!joints.empty()) {
     const bool on_splines = request.interpolation == QueryMotion::Request::SPLINES;
     // Errors of joints add up along a chain: each may deviate by a quarter of the tolerance of the motion's samples
     // [rad, m].
-    named = on_splines ? toSplines(request.trajectory, start, 0.25 * planned.sampling.tolerance)
-                       : toRobotTrajectory(request.trajectory, start);
+    named = on_splines ? toSplines(request.joint_trajectory, start, 0.25 * planned.sampling.tolerance)
+                       : toRobotTrajectory(request.joint_trajectory, start);
     for (RobotState& state : named.states) state.X_WR = planned.now.X_WR;
   }
   if (!multi_dof.empty()) {
-    const RobotTrajectory poses = toRobotTrajectory(request.multi_dof_trajectory, start, planned);
+    const RobotTrajectory poses = toRobotTrajectory(request.multi_dof_joint_trajectory, start, planned);
     named = joints.empty() ? poses : merged(named, poses);
   }
   requireSize(request.other_positions.size(), request.other_joints.size(), "other_positions");
@@ -233,7 +233,8 @@ PlannedMotion toPlannedMotion(const QueryMotion::Request& request, const Planned
   if (request.interpolation > QueryMotion::Request::SPLINES) {
     refuse("interpolation " + std::to_string(request.interpolation) + " is neither LINEAR nor SPLINES");
   }
-  const bool has_joints = !request.trajectory.points.empty() || !request.multi_dof_trajectory.points.empty();
+  const bool has_joints =
+      !request.joint_trajectory.points.empty() || !request.multi_dof_joint_trajectory.points.empty();
   if (has_joints == !request.poses.empty()) refuse("give either trajectories or poses of links, and not both");
   return has_joints ? alongTrajectory(request, planned) : alongLinkPoses(request, planned);
 }

@@ -71,8 +71,8 @@ std::string rootFrameOf(const QueryMotions::Request& request) {
 /// One of the motions as a request of its own.
 QueryMotion::Request requestOf(const QueryMotions::Request& request, std::size_t motion) {
   QueryMotion::Request one;
-  one.trajectory = request.motions[motion].joint_trajectory;
-  one.multi_dof_trajectory = request.motions[motion].multi_dof_joint_trajectory;
+  one.joint_trajectory = request.motions[motion].joint_trajectory;
+  one.multi_dof_joint_trajectory = request.motions[motion].multi_dof_joint_trajectory;
   one.interpolation = request.interpolation;
   one.other_joints = request.other_joints;
   one.other_positions = request.other_positions;
@@ -80,21 +80,24 @@ QueryMotion::Request requestOf(const QueryMotions::Request& request, std::size_t
   return one;
 }
 
-void addVerdict(const MotionVerdict& verdict, const Scene& scene, QueryMotions::Response& response) {
-  const PlannedPair* pair = verdict.pair < 0 ? nullptr : &scene.pairs[static_cast<std::size_t>(verdict.pair)];
-  response.verdicts.push_back(static_cast<std::uint8_t>(verdict.verdict));
-  response.error_bounds.push_back(verdict.error_bound);
-  response.bodies_a.push_back(pair ? scene.bodies[pair->body_a].name : "");
-  response.bodies_b.push_back(pair ? scene.bodies[pair->body_b].name : "");
-  response.times.push_back(ros::Duration(verdict.time));
-  const auto motion = static_cast<std::uint32_t>(response.verdicts.size() - 1);
-  for (const PairVerdict& pair : verdict.pairs) {
-    response.pair_motions.push_back(motion);
-    response.pair_verdicts.push_back(static_cast<std::uint8_t>(pair.verdict));
-    response.pairs_a.push_back(scene.bodies[pair.body_a].name);
-    response.pairs_b.push_back(scene.bodies[pair.body_b].name);
-    response.pair_times.push_back(ros::Duration(pair.time));
+CheckedMotion toCheckedMotion(const MotionVerdict& verdict, const Scene& scene) {
+  CheckedMotion message;
+  message.verdict = static_cast<std::uint8_t>(verdict.verdict);
+  message.error_bound = verdict.error_bound;
+  if (verdict.pair >= 0) {
+    const PlannedPair& pair = scene.pairs[static_cast<std::size_t>(verdict.pair)];
+    message.body_a = scene.bodies[pair.body_a].name;
+    message.body_b = scene.bodies[pair.body_b].name;
   }
+  message.time = ros::Duration(verdict.time);
+  for (const PairVerdict& pair : verdict.pairs) {
+    CheckedPair& listed = message.pairs.emplace_back();
+    listed.body_a = scene.bodies[pair.body_a].name;
+    listed.body_b = scene.bodies[pair.body_b].name;
+    listed.verdict = static_cast<std::uint8_t>(pair.verdict);
+    listed.time = ros::Duration(pair.time);
+  }
+  return message;
 }
 
 /// Does the work; if it is cancelled, says what it was at.
@@ -221,7 +224,6 @@ std::shared_ptr<const CheckedWorld> Queries::world() const {
 
 void Queries::answer(const QueryMotion::Request& request, QueryMotion::Response& response) {
   answerWith([&](std::string& used_by) { checkMotion(request, response, used_by); }, response);
-  if (!response.success) response.verdict = QueryMotion::Response::NOT_CHECKED;
 }
 
 /// The present poses, for everything that a motion does not specify.
@@ -236,7 +238,7 @@ PlannedScene Queries::planFromNow(const std::string& plan_frame, const CheckedWo
 }
 
 PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWorld& world) const {
-  const PlannedScene from_now = planFromNow(request.multi_dof_trajectory.header.frame_id, world);
+  const PlannedScene from_now = planFromNow(request.multi_dof_joint_trajectory.header.frame_id, world);
   PlannedMotion planned = toPlannedMotion(request, from_now);
   const std::string old = ros::Time::isValid() ? oldTransformsNote(from_now.now, ros::Time::now(), max_age_) : "";
   if (!old.empty()) planned.notes += (planned.notes.empty() ? "" : "; ") + old;
@@ -244,9 +246,10 @@ PlannedMotion Queries::plan(const QueryMotion::Request& request, const CheckedWo
 }
 
 void Queries::checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by) {
-  requireAtMost(limits_.waypoints,
-                request.trajectory.points.size() + request.multi_dof_trajectory.points.size() + request.poses.size(),
-                "waypoints");
+  requireAtMost(
+      limits_.waypoints,
+      request.joint_trajectory.points.size() + request.multi_dof_joint_trajectory.points.size() + request.poses.size(),
+      "waypoints");
   const auto start = std::chrono::steady_clock::now();
   double spent = 0.0;
   while (!checkOnce(request, response, used_by, spent)) {
@@ -300,7 +303,7 @@ bool Queries::checkOnce(const QueryMotion::Request& request, QueryMotion::Respon
     response.assumed_positions.push_back(joint.position);
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
-  response.error_bound = result.error_bound;
+  response.error_bound = toErrorBounds(result.error);
   response.margin = request.margin;
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(
@@ -338,6 +341,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   wanted.times = &times;
   const std::size_t per_piece = kMotionsPerThread * arena_.threads();
   MotionNotes notes;
+  std::size_t listed = 0;  // pairs
   double spent = 0.0;
   const auto checkFrom = [&](std::size_t first) {
     const Piece piece(*this, spent);
@@ -361,10 +365,11 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     });
     for (const MotionVerdict& verdict : verdicts) {
       for (const UncheckedPair& pair : verdict.unchecked)
-        notes.add(response.verdicts.size(), pairName(scene, pair) + ": " + pair.reason);
-      addVerdict(verdict, scene, response);
+        notes.add(response.motions.size(), pairName(scene, pair) + ": " + pair.reason);
+      listed += verdict.pairs.size();
+      response.motions.push_back(toCheckedMotion(verdict, scene));
     }
-    requireAtMost(limits_.pairs, response.pair_motions.size(), "listed pairs");
+    requireAtMost(limits_.pairs, listed, "listed pairs");
   };
   for (std::size_t first = 0; first < count; first += per_piece)
     orElse([&] { checkFrom(first); }, [&] { used_by = times.longest(scene); });
@@ -420,10 +425,11 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
       }
       const NearestBody nearest = search.nearest(X_WB, p_W);
       const bool none = nearest.body < 0;
-      response.distances.push_back(none ? std::numeric_limits<double>::infinity() : nearest.distance);
-      response.errors.push_back(nearest.error);
-      response.gradients.push_back(toVector3(X_WQ.linear().transpose() * nearest.gradient_W));
-      response.bodies.push_back(none ? "" : scene.bodies[nearest.body].name);
+      PointDistance& point = response.points.emplace_back();
+      point.distance = none ? std::numeric_limits<double>::infinity() : nearest.distance;
+      point.error = nearest.error;
+      point.gradient = toVector3(X_WQ.linear().transpose() * nearest.gradient_W);
+      if (!none) point.body = scene.bodies[nearest.body].name;
     }
   }
 }

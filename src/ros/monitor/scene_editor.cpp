@@ -21,9 +21,9 @@ using Clock = std::chrono::steady_clock;
 constexpr int kMaxCallers = 3;  // one that changes the scene, and others that wait
 constexpr auto kTurnPeriod = std::chrono::milliseconds(20);
 
-int lastChangeOf(const std::string& object, const UpdateScene::Request& request) {
+int lastChangeOf(const std::string& id, const UpdateScene::Request& request) {
   for (auto change = request.changes.rbegin(); change != request.changes.rend(); ++change)
-    if (change->object == object) return static_cast<int>(request.changes.rend() - change) - 1;
+    if (change->id == id) return static_cast<int>(request.changes.rend() - change) - 1;
   return -1;
 }
 

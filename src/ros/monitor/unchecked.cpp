@@ -24,7 +24,7 @@ std::string pairReason(const MonitorLoop& loop, const PairResult& pair) {
 
 std::vector<std::string> missingBodies(const MonitorLoop& loop) {
   std::vector<std::string> lines;
-  setMissingBodies(loop, {}, lines);
+  setMissingBodies(loop, lines);
   return lines;
 }
 
@@ -59,22 +59,42 @@ void setUncheckedCycle(const MonitorLoop& loop, std::string& reason) {
   }
 }
 
-void setMissingBodies(const MonitorLoop& loop, const std::vector<std::string>& others,
-                      std::vector<std::string>& lines) {
+void setUncheckedBodies(const MonitorLoop& loop, std::vector<UncheckedBody>& bodies) {
+  const TrackedCycle& cycle = loop.cycle();
+  const CycleResult& result = loop.result();
+  std::size_t count = 0;
+  for (std::size_t b = 0; b < loop.scene().bodies.size(); ++b) {
+    const int body = static_cast<int>(b);
+    const std::string& reason = uncheckedReason(loop, body);
+    if (reason.empty()) continue;
+    if (count == bodies.size()) bodies.emplace_back();
+    UncheckedBody& entry = bodies[count++];
+    entry.body = loop.scene().bodies[b].name;
+    entry.reason = reason;
+    entry.since = cycle.start;
+    entry.pairs = loop.pairsOfBodies()[b];
+    if (!loop.scene().bodies[b].failure.empty()) continue;  // not_clear does not hold the pairs of these
+    for (const int i : result.not_clear) {
+      const PairResult& pair = result.pairs[static_cast<std::size_t>(i)];
+      const bool is_its = pair.verdict == Verdict::kNotChecked && (pair.body_a == body || pair.body_b == body);
+      if (is_its)
+        entry.since = std::min(entry.since, cycle.origin + ros::Duration(cycle.motion.times[pair.span.first]));
+    }
+  }
+  bodies.resize(count);
+}
+
+void setMissingBodies(const MonitorLoop& loop, std::vector<std::string>& lines) {
   const std::vector<std::string>& missing = loop.cycle().motion.missing;
   std::size_t count = 0;
-  const auto next = [&]() -> std::string& {
-    if (count == lines.size()) lines.emplace_back();
-    return lines[count++];
-  };
   for (std::size_t body = 0; body < missing.size(); ++body) {
     if (missing[body].empty()) continue;
-    std::string& line = next();
+    if (count == lines.size()) lines.emplace_back();
+    std::string& line = lines[count++];
     line = loop.scene().bodies[body].name;
     line += ": ";
     line += missing[body];
   }
-  for (const std::string& other : others) next() = other;
   lines.resize(count);
 }
 

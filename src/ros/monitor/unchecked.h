@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ros/monitor/monitor_loop.h"
+#include "sdf_ccd/UncheckedBody.h"
 
 /// What the loop's last cycle did not check, and why, as texts.
 namespace sdf_ccd {
@@ -17,9 +18,11 @@ bool isOfUncheckedBody(const MonitorLoop& loop, const PairResult& pair);
 /// Sets the reason why the cycle as a whole is not checked; empty if it is. Reuses the text's memory.
 void setUncheckedCycle(const MonitorLoop& loop, std::string& reason);
 
-/// Sets "body: reason" of the bodies that the cycle could not check because transforms are missing, then `others`.
-/// Reuses the lines' memory.
-void setMissingBodies(const MonitorLoop& loop, const std::vector<std::string>& others, std::vector<std::string>& lines);
+/// Sets the bodies none of whose pairs the cycle could check. Reuses their memory.
+void setUncheckedBodies(const MonitorLoop& loop, std::vector<UncheckedBody>& bodies);
+
+/// Sets "body: reason" of those of them whose transforms are missing. Reuses the lines' memory.
+void setMissingBodies(const MonitorLoop& loop, std::vector<std::string>& lines);
 
 /// Why bodies are not checked, in one line: an example of the most frequent reason, and the number of other bodies.
 /// Empty if the cycle could check all bodies.

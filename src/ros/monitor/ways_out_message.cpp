@@ -33,8 +33,9 @@ WaysOut toWaysOut(const MonitorLoop& loop, const SafetyRules& rules) {
   const std::vector<std::vector<SeparatingJoint>> ways = waysOut(*described.robot, pairs, linkPose);
   for (std::size_t p = 0; p < ways.size(); ++p) {
     for (const SeparatingJoint& joint : ways[p]) {
-      message.ways[p].joints.push_back(joint.joint);
-      message.ways[p].rates.push_back(joint.rate);
+      WayOutJoint& listed = message.ways[p].joints.emplace_back();
+      listed.name = joint.joint;
+      listed.rate = joint.rate;
     }
   }
   return message;

@@ -180,11 +180,38 @@ std::string findDescription(const ros::NodeHandle& private_node, const std::stri
   return text;
 }
 
+/// Parameters of earlier versions, and what to do instead.
+struct GoneParameter {
+  const char *group, *key, *instead;
+};
+constexpr GoneParameter kGone[] = {
+    {"", "allow_http", "nothing is read over the network: put meshes into files or packages"},
+    {"field", "sample_bits", "samples have 16 bits"},
+};
+
+/// Takes the gone parameters out of the tree. @return a text about each.
+std::vector<std::string> takeGone(Setting& tree, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const GoneParameter& gone : kGone) {
+    const bool is_in_group = *gone.group != 0;
+    auto* group = std::get_if<Setting::Group>(&tree.value);
+    if (group && is_in_group) {
+      const auto found = group->find(gone.group);
+      group = found == group->end() ? nullptr : std::get_if<Setting::Group>(&found->second.value);
+    }
+    if (!group || group->erase(gone.key) == 0) continue;
+    texts.push_back(name + "/" + (is_in_group ? std::string(gone.group) + "/" : "") + gone.key +
+                    ", which is gone: " + gone.instead);
+  }
+  return texts;
+}
+
 }  // namespace
 
-MonitorParameters parseParameters(const Setting& tree, const std::string& name) {
-  SettingsReader reader(tree, name);
+MonitorParameters parseParameters(Setting tree, const std::string& name) {
   MonitorParameters parameters;
+  parameters.unused = takeGone(tree, name);
+  SettingsReader reader(std::move(tree), name);
 
   parameters.urdf_parameter = reader.text("urdf_parameter", "robot_description");
   parameters.srdf_parameter = reader.text("srdf_parameter", parameters.urdf_parameter + "_semantic");
@@ -250,7 +277,7 @@ MonitorParameters parseParameters(const Setting& tree, const std::string& name) 
     reader.text(description, "");
   reader.integer("num_worker_threads", 0, 0);  // the nodelet loader's
   reader.positive("diagnostic_period", 1.0);   // the diagnostic updater's
-  parameters.unknown = reader.unread();
+  for (const std::string& unknown : reader.unread()) parameters.unused.push_back(unknown);
   return parameters;
 }
 

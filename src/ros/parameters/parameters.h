@@ -79,7 +79,9 @@ struct MonitorParameters {
   TriggerOptions trigger;
   int max_points = 0;
   Refinement refine = Refinement::kNone;  ///< CycleRequest::refine of cycles, bags and planned motions
-  std::vector<std::string> unknown;  ///< parameters that nothing reads, with suggestions; in groups they are errors
+  /// Parameters that nothing reads: those that are gone, with their successors, and unknown ones, with suggestions.
+  /// Unknown ones in groups are errors.
+  std::vector<std::string> unused;
 };
 
 /// CycleRequest::max_time of a running monitor [s]; bags and queries have no such limit, so that their results do not
@@ -97,7 +99,7 @@ struct MissingDescription : std::runtime_error {
 /// Reads and checks all parameters but the descriptions, which are left empty.
 /// @param name  of the tree, for errors: "/collision_monitor".
 /// @throws std::runtime_error naming the parameter and its value.
-MonitorParameters parseParameters(const Setting& tree, const std::string& name);
+MonitorParameters parseParameters(Setting tree, const std::string& name);
 
 /// Reads and checks all parameters from a private namespace, with the robot's descriptions.
 /// @throws MissingDescription, else std::runtime_error naming the parameter and its value.

@@ -9,14 +9,14 @@ namespace sdf_ccd {
 /// of the ROS master can call the services.
 struct RequestPermissions {
   bool add = true;      ///< objects, under names that no object has
-  bool move = true;     ///< objects, or replace their shapes
+  bool move = true;     ///< objects, or replace their shapes, or add to them
   bool attach = true;   ///< objects, with touch_links; and detach them
   bool rules = true;    ///< ALLOW, CHECK, FORGET_RULES
   bool clear = true;    ///< remove objects
   bool reset = true;    ///< forget all contacts, once a second
   bool limits = false;  ///< dynamic_reconfigure: rate, distances and the robot's limits, to the unsafe side, too
 
-  /// Patterns of bodies that requests can neither move, replace, attach, detach, remove nor allow to touch.
+  /// Patterns of bodies that requests can neither move, replace, extend, attach, detach, remove nor allow to touch.
   std::vector<std::string> protected_bodies;
 
   bool isProtected(const std::string& body) const;

@@ -44,6 +44,12 @@ void countTriangles(const BodyDescription& body, std::size_t& triangles) {
   }
 }
 
+/// What leaves an object where it is takes no pose, so that a pose has one meaning.
+void requireNoPose(const SceneChange& change, const std::string& what) {
+  if (hasPose(change))
+    refuse(what + " leaves " + shownText(change.id) + " where it is: MOVE it first, and give no pose");
+}
+
 }  // namespace
 
 ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& rules, const SceneDescription& first,
@@ -73,63 +79,62 @@ ChangingScene::ChangingScene(const DescribedScene& described, const PairRules& r
 void ChangingScene::apply(const SceneChange& change, ChangeSources& sources) {
   checkCancelled();
   settled_ = nullptr;
-  if (change.type <= SceneChange::DETACH) requireName(change.object, "the object's name", sources.limits);
+  if (change.operation <= SceneChange::DETACH) requireName(change.id, "the object's id", sources.limits);
   const RequestPermissions& permissions = start_up_->permissions;
-  switch (change.type) {
+  switch (change.operation) {
     case SceneChange::ADD:
-      requireAddable(change.object, "ADD");
+      requireAddable(change.id, "ADD");
       return add(change, sources);
-    case SceneChange::MOVE:
-      requireAllowed(permissions.move, "move", "MOVE");
-      permissions.requireUnprotected(change.object, "MOVE");
-      return move(change);
     case SceneChange::REMOVE:
       requireRemovable(change);
       return erase(change);
+    case SceneChange::APPEND:
+      requireReplaceable(change.id, "APPEND");
+      return append(change, sources);
+    case SceneChange::MOVE:
+      requireReplaceable(change.id, "MOVE");
+      return move(change);
     case SceneChange::ATTACH:
       requireAllowed(permissions.attach, "attach", "ATTACH");
-      if (objects_.count(change.object) == 0 || hasShapes(change) || poseIn(change.pose))
-        requireAddable(change.object, "ATTACH");
-      if (objects_.count(change.object) > 0) permissions.requireUnprotected(change.object, "ATTACH");
+      if (objects_.count(change.id) == 0 || hasShapes(change)) requireAddable(change.id, "ATTACH");
+      if (objects_.count(change.id) > 0) permissions.requireUnprotected(change.id, "ATTACH");
       return attach(change, sources);
     case SceneChange::DETACH:
       requireAllowed(permissions.attach, "attach", "DETACH");
-      if (poseIn(change.pose) || frameOf(change, start_up_->fixed_frame) != start_up_->fixed_frame)
-        requireAllowed(permissions.move, "move", "DETACH to a pose or a frame");
-      permissions.requireUnprotected(change.object, "DETACH");
+      if (frameOf(change, start_up_->fixed_frame) != start_up_->fixed_frame)
+        requireAllowed(permissions.move, "move", "DETACH to a frame");
+      permissions.requireUnprotected(change.id, "DETACH");
       return detach(change, sources);
     case SceneChange::ALLOW:
     case SceneChange::CHECK:
-      requireAllowed(permissions.rules, "rules", change.type == SceneChange::ALLOW ? "ALLOW" : "CHECK");
+      requireAllowed(permissions.rules, "rules", change.operation == SceneChange::ALLOW ? "ALLOW" : "CHECK");
       return addRule(change, sources);
     case SceneChange::FORGET_RULES:
       requireAllowed(permissions.rules, "rules", "FORGET_RULES");
       return rules_.clear();
     case SceneChange::LOAD:
       return load(change, sources);
-    case SceneChange::CLEAR:
-      requireRemovable(change);
-      return objects_.clear();
     default:
-      refuse("unknown type " + std::to_string(change.type) + ", see SceneChange.msg");
+      refuse("unknown operation " + std::to_string(change.operation) + ", see SceneChange.msg");
   }
 }
 
-/// An object that replaces another one takes the place of what protected the robot there.
-void ChangingScene::requireAddable(const std::string& name, const std::string& what) const {
-  const RequestPermissions& permissions = start_up_->permissions;
-  if (objects_.count(name) == 0) return requireAllowed(permissions.add, "add", what + " of " + shownText(name));
-  requireAllowed(permissions.move, "move", what + " in place of " + shownText(name));
-  permissions.requireUnprotected(name, what);
+/// What moves or replaces an object takes away what protected the robot there; what it is extended by may lie in voxels
+/// of a map, which are then judged as the object.
+void ChangingScene::requireReplaceable(const std::string& name, const std::string& what) const {
+  requireAllowed(start_up_->permissions.move, "move", what);
+  start_up_->permissions.requireUnprotected(name, what);
 }
 
-/// @param change  REMOVE or CLEAR.
+void ChangingScene::requireAddable(const std::string& name, const std::string& what) const {
+  if (objects_.count(name) > 0) return requireReplaceable(name, what + " in place of " + shownText(name));
+  requireAllowed(start_up_->permissions.add, "add", what + " of " + shownText(name));
+}
+
 void ChangingScene::requireRemovable(const SceneChange& change) const {
-  const bool is_clear = change.type == SceneChange::CLEAR;
-  const std::string what = is_clear ? "CLEAR" : "REMOVE";
-  requireAllowed(start_up_->permissions.clear, "clear", what);
+  requireAllowed(start_up_->permissions.clear, "clear", "REMOVE");
   for (const auto& [name, object] : objects_)
-    if (is_clear || matches(change.object, name)) start_up_->permissions.requireUnprotected(name, what);
+    if (matches(change.id, name)) start_up_->permissions.requireUnprotected(name, "REMOVE");
 }
 
 void ChangingScene::set(BodyDescription body) {
@@ -156,13 +161,13 @@ std::string ChangingScene::frameOf(const SceneChange& change, const std::string&
 
 BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& sources) const {
   const std::string frame = frameOf(change, start_up_->fixed_frame);
-  const Isometry3d X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
-  WorldObject object{change.object, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
+  const Isometry3d X_frame_B = poseIn(change.pose, "the pose");
+  WorldObject object{change.id, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
   const bool is_map = !change.octomap_file.empty();
   if (is_map && !object.shapes.empty())
     refuse("an object with octomap_file cannot have other shapes: add those as another object");
   if (is_map) object.shapes.push_back({OctomapObject{change.octomap_file}});
-  if (object.shapes.empty()) refuse("object " + change.object + " has no shape");
+  if (object.shapes.empty()) refuse("object " + change.id + " has no shape");
   const ResourceLoader loader = [&](const std::string& name) {
     return is_map ? sources.files.read(name) : sources.files.resource(name);
   };
@@ -180,73 +185,87 @@ void ChangingScene::requireUsableName(const std::string& name) const {
 }
 
 void ChangingScene::add(const SceneChange& change, ChangeSources& sources) {
-  requireUsableName(change.object);
+  requireUsableName(change.id);
   set(make(change, sources));
 }
 
 void ChangingScene::move(const SceneChange& change) {
-  Object& object = find(change.object);
+  Object& object = find(change.id);
   if (!object.link.empty())
-    refuse(change.object + " is attached to " + object.link + ": detach it first, or attach it with the new pose");
+    refuse(shownText(change.id) + " is attached to " + shownText(object.link) + ": DETACH it first");
   object.body.frame = frameOf(change, object.body.frame);
-  object.body.X_frame_B = poseIn(change.pose).value_or(Isometry3d::Identity());
+  object.body.X_frame_B = poseIn(change.pose, "the pose");
   object.is_unchanged = false;
   object.declared = ++declared_;
 }
 
 void ChangingScene::erase(const SceneChange& change) {
-  if (!isPattern(change.object)) {
-    find(change.object);
-    objects_.erase(change.object);
+  if (!isPattern(change.id)) {
+    find(change.id);
+    objects_.erase(change.id);
     return;
   }
   for (auto object = objects_.begin(); object != objects_.end();)
-    object = matches(change.object, object->first) ? objects_.erase(object) : std::next(object);
+    object = matches(change.id, object->first) ? objects_.erase(object) : std::next(object);
+}
+
+/// The object gets shapes, and stays where it is, attached or not.
+void ChangingScene::append(const SceneChange& change, ChangeSources& sources) {
+  Object& object = find(change.id);
+  requireNoPose(change, "APPEND");
+  const bool holds_map = std::any_of(object.body.geometry.begin(), object.body.geometry.end(),
+                                     [](const GeometryDescription& part) { return part.watertight_voxels; });
+  if (holds_map || !change.octomap_file.empty())
+    refuse("an OctoMap is the only shape of its object: add others as another object");
+  SceneChange added = change;
+  added.pose.orientation.w = 1.0;  // not used
+  std::vector<GeometryDescription> parts = make(added, sources).geometry;
+  if (object.body.geometry.size() + parts.size() > sources.limits.shapes)
+    refuse(change.id + " would have more than " + std::to_string(sources.limits.shapes) + " shapes");
+  std::move(parts.begin(), parts.end(), std::back_inserter(object.body.geometry));
+  if (!object.link.empty()) object.attached_since = sources.now;  // voxels there were not the object's
+  object.is_unchanged = false;
+  object.declared = ++declared_;
 }
 
 void ChangingScene::attach(const SceneChange& change, ChangeSources& sources) {
-  if (start_up_->robot->find(change.link) < 0) refuse("the robot has no link " + shownText(change.link));
-  const std::string link_frame = start_up_->tf_prefix + change.link;
-  SceneChange made = change;
-  if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
-  const auto given = poseIn(change.pose);
-  const auto known = objects_.find(change.object);
-  const bool is_new = known == objects_.end(), stays = !is_new && !given;
-  const std::string frame = stays ? known->second.body.frame : frameOf(made, link_frame);
-  const Isometry3d X_FB = stays ? known->second.body.X_frame_B : given.value_or(Isometry3d::Identity());
-  if (is_new || hasShapes(change)) add(made, sources);
-  Object& object = find(change.object);
-  Isometry3d X_LB = X_FB;
-  if (frame != link_frame) X_LB = poseOf(sources.history, frame, link_frame, change.header.stamp) * X_FB;
+  if (start_up_->robot->find(change.link_name) < 0) refuse("the robot has no link " + shownText(change.link_name));
+  const std::string link_frame = start_up_->tf_prefix + change.link_name;
+  if (objects_.count(change.id) == 0 || hasShapes(change)) {
+    SceneChange made = change;
+    if (made.header.frame_id.empty()) made.header.frame_id = link_frame;
+    add(made, sources);
+  } else {
+    requireNoPose(change, "ATTACH without shapes");
+  }
+  Object& object = find(change.id);
+  Isometry3d X_LB = object.body.X_frame_B;
+  if (object.body.frame != link_frame)
+    X_LB = poseOf(sources.history, object.body.frame, link_frame, change.header.stamp) * X_LB;
   if (change.touch_links.size() > sources.limits.rules)
     refuse("more than " + std::to_string(sources.limits.rules) + " touch_links");
   for (const std::string& touched : change.touch_links) {
     requireName(touched, "a touch_link", sources.limits);
     requireNoneProtected(touched, "touch_links");
   }
-  const bool is_there = object.link == change.link && object.body.X_frame_B.matrix() == X_LB.matrix();
+  const bool is_there = object.link == change.link_name && object.body.X_frame_B.matrix() == X_LB.matrix();
   if (!is_there) object.attached_since = change.header.stamp.isZero() ? sources.now : change.header.stamp;
-  if (!stays && !is_there) object.declared = ++declared_;
   object.body.frame = link_frame;
   object.body.X_frame_B = X_LB;
   object.body.is_world = false;
   object.body.is_attached = true;
-  object.link = change.link;
+  object.link = change.link_name;
   object.touch_links = change.touch_links;
   object.is_unchanged = false;
 }
 
 void ChangingScene::detach(const SceneChange& change, ChangeSources& sources) {
-  Object& object = find(change.object);
-  if (object.link.empty()) refuse(change.object + " is not attached");
+  Object& object = find(change.id);
+  if (object.link.empty()) refuse(change.id + " is not attached");
+  requireNoPose(change, "DETACH");
   const std::string frame = frameOf(change, start_up_->fixed_frame);
-  if (const auto given = poseIn(change.pose)) {
-    object.body.X_frame_B = *given;
-    object.declared = ++declared_;
-  } else {
-    object.body.X_frame_B =
-        poseOf(sources.history, object.body.frame, frame, change.header.stamp) * object.body.X_frame_B;
-  }
+  object.body.X_frame_B =
+      poseOf(sources.history, object.body.frame, frame, change.header.stamp) * object.body.X_frame_B;
   object.body.frame = frame;
   object.body.is_world = true;
   object.body.is_attached = false;
@@ -277,7 +296,7 @@ void ChangingScene::addRule(const SceneChange& change, ChangeSources& sources) {
   const RequestLimits& limits = sources.limits;
   for (const auto& [pattern, what] : {std::pair(change.body_a, "body_a"), std::pair(change.body_b, "body_b")}) {
     requireName(pattern, what, limits);
-    if (change.type == SceneChange::ALLOW) requireNoneProtected(pattern, "ALLOW");
+    if (change.operation == SceneChange::ALLOW) requireNoneProtected(pattern, "ALLOW");
     if (!anyNamed(pattern, [](const std::string&) { return true; }))
       sources.warnings.push_back("no body is named " + shownText(pattern) + ", yet");
   }
@@ -287,7 +306,7 @@ void ChangingScene::addRule(const SceneChange& change, ChangeSources& sources) {
   rules_.erase(std::remove_if(rules_.begin(), rules_.end(), same), rules_.end());
   if (rules_.size() >= limits.rules)
     refuse("more than " + std::to_string(limits.rules) + " rules about pairs: remove them with FORGET_RULES");
-  rules_.push_back({{change.body_a, change.body_b}, change.type == SceneChange::ALLOW});
+  rules_.push_back({{change.body_a, change.body_b}, change.operation == SceneChange::ALLOW});
 }
 
 void ChangingScene::load(const SceneChange& change, ChangeSources& sources) {

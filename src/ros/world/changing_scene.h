@@ -102,6 +102,7 @@ class ChangingScene {
   };
 
   void add(const SceneChange& change, ChangeSources& sources);
+  void append(const SceneChange& change, ChangeSources& sources);
   void move(const SceneChange& change);
   void erase(const SceneChange& change);
   void attach(const SceneChange& change, ChangeSources& sources);
@@ -111,6 +112,7 @@ class ChangingScene {
   bool anyNamed(const std::string& pattern, const Visit& visit) const;
   void requireNoneProtected(const std::string& pattern, const std::string& what) const;
   void load(const SceneChange& change, ChangeSources& sources);
+  void requireReplaceable(const std::string& name, const std::string& what) const;
   void requireAddable(const std::string& name, const std::string& what) const;
   void requireRemovable(const SceneChange& change) const;
 

@@ -53,14 +53,20 @@ std::shared_ptr<const TriangleMesh> toMesh(const shape_msgs::Mesh& message, cons
 
 }  // namespace
 
-std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose) {
-  const Vector3d p = toEigen(pose.position);
-  const Quaterniond q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
-  if (p.isZero(0.0) && q.coeffs().isZero(0.0)) return std::nullopt;
-  if (!isNearOrigin(p)) refuse("the pose has a position that is not finite, or too far from the origin");
-  const auto known = poseOf(p, q);
-  if (!known) refuse("the pose has an orientation that is not a unit quaternion");
-  return known;
+bool hasPose(const SceneChange& message) {
+  const geometry_msgs::Point& p = message.pose.position;
+  const geometry_msgs::Quaternion& q = message.pose.orientation;
+  const auto isZero = [](double number) { return number == 0.0; };
+  const auto numbers = {p.x, p.y, p.z, q.x, q.y, q.z, q.w};
+  return !std::all_of(numbers.begin(), numbers.end(), isZero);
+}
+
+Isometry3d poseIn(const geometry_msgs::Pose& pose, const std::string& name) {
+  try {
+    return toIsometry(pose);
+  } catch (const std::invalid_argument& problem) {
+    refuse(name + ": " + problem.what());
+  }
 }
 
 void requireName(const std::string& name, const std::string& what, const RequestLimits& limits) {
@@ -88,7 +94,7 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
       const std::string name = kind + "[" + std::to_string(i) + "]";
       WorldShape& shape = shapes.emplace_back();
       shape.shape = shapeOf(elements[i], name, i);
-      if (!poses.empty()) shape.X_BG = poseIn(poses[i]).value_or(Isometry3d::Identity());
+      if (!poses.empty()) shape.X_BG = poseIn(poses[i], "the pose of " + name);
     }
   };
   using Shape = WorldShape::Shape;
@@ -112,7 +118,6 @@ std::vector<WorldShape> shapesIn(const SceneChange& message, const RequestLimits
         if (!message.mesh_resource_scales.empty()) {
           const geometry_msgs::Vector3& given = message.mesh_resource_scales[i];
           scale = {given.x, given.y, given.z};
-          if (scale.isZero(0.0)) scale = Vector3d::Ones();
         }
         const bool is_scale = (scale.array().abs() > 0.0).all() && isNearOrigin(scale);
         if (!is_scale) refuse(name + ": a component of the scale is zero, not finite or too large");

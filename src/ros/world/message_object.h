@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include <geometry_msgs/Pose.h>
 
 #include "ros/parameters/world_object.h"
@@ -19,9 +17,12 @@ struct RequestLimits {
   std::size_t pairs = 300000;       ///< of a scene
 };
 
-/// The pose, or none if all numbers are zero, as in a message that was not filled in.
+/// Whether the change has a pose: any number of it is not zero.
+bool hasPose(const SceneChange& message);
+
+/// @param name  of the pose, for errors.
 /// @throws std::invalid_argument if a number is not finite or too large, or the orientation is not a unit quaternion.
-std::optional<Isometry3d> poseIn(const geometry_msgs::Pose& pose);
+Isometry3d poseIn(const geometry_msgs::Pose& pose, const std::string& name);
 
 /// @throws std::invalid_argument if the name is empty, too long or contains control characters; `what` describes it.
 void requireName(const std::string& name, const std::string& what, const RequestLimits& limits);

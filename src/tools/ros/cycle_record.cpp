@@ -5,30 +5,33 @@
 
 #include <fmt/format.h>
 
+#include "sdf_ccd/Verdicts.h"
+
 namespace sdf_ccd::tools {
 
 CycleRecord toRecord(const ContactArray& message) {
-  if (message.verdict > ContactArray::CONTACT || !std::isfinite(message.error_bound) ||
-      !std::isfinite(message.run_time)) {
+  const CycleStatus& cycle = message.cycle;
+  if (message.verdict > Verdicts::CONTACT || !std::isfinite(cycle.error_bound.total) ||
+      !std::isfinite(cycle.run_time)) {
     throw std::runtime_error(fmt::format("a message about contacts is damaged: verdict {}, error bound {}, run time {}",
-                                         message.verdict, message.error_bound, message.run_time));
+                                         message.verdict, cycle.error_bound.total, cycle.run_time));
   }
   CycleRecord record;
-  record.start = message.cycle_start;
+  record.start = cycle.start;
   record.end = message.header.stamp;
-  record.complete_until = message.complete_until;
-  record.contradicted_since = message.contradicted_since;
+  record.complete_until = cycle.complete_until;
+  record.contradicted_since = cycle.contradicted_since;
   record.verdict = static_cast<Verdict>(message.verdict);
   record.reason = message.reason;
-  record.error_bound = message.error_bound;
-  record.run_time = message.run_time;
-  record.checked = message.checked;
-  record.skipped = message.skipped;
-  record.not_checked = message.not_checked;
-  record.delayed = message.delayed;
+  record.error_bound = cycle.error_bound.total;
+  record.run_time = cycle.run_time;
+  record.checked = cycle.checked;
+  record.skipped = cycle.skipped;
+  record.not_checked = cycle.not_checked;
+  record.delayed = cycle.delayed;
   for (const PairContact& pair : message.pairs) {
-    record.in_contact += pair.verdict == PairContact::CONTACT;
-    record.uncertain += pair.verdict == PairContact::UNCERTAIN;
+    record.in_contact += pair.verdict == Verdicts::CONTACT;
+    record.uncertain += pair.verdict == Verdicts::UNCERTAIN;
     if (pair.intervals.empty() || pair.depth <= record.depth) continue;
     record.depth = pair.depth;
     record.body_a = pair.body_a;

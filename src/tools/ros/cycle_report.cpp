@@ -16,8 +16,9 @@ CycleReport::CycleReport(const OutputDirectory& directory)
 
 void CycleReport::add(const ContactArray& message) {
   // Where no cycle runs nothing is checked; where no time passes pairs may still catch up.
-  const bool checks = message.checked + message.skipped + message.not_checked + message.postponed > 0;
-  if (message.cycle_start == message.header.stamp && !checks) return;
+  const CycleStatus& cycle = message.cycle;
+  const bool checks = cycle.checked + cycle.skipped + cycle.not_checked + cycle.postponed > 0;
+  if (cycle.start == message.header.stamp && !checks) return;
   const CycleRecord record = toRecord(message);
   statistics_.add(message, record);
   cycles_file_.stream() << toRow(record);

@@ -32,9 +32,7 @@ MonitorParameters readParameters(const MonitorConfig& config) {
   if (!config.srdf.empty()) parameters.srdf = readTextFile(config.srdf);
   parameters.urdf_source = config.urdf;
   parameters.srdf_source = config.srdf;
-  if (!parameters.unknown.empty()) {
-    throw std::runtime_error(prefix + "unknown parameter " + parameters.unknown.front());
-  }
+  if (!parameters.unused.empty()) throw std::runtime_error(prefix + "unknown parameter " + parameters.unused.front());
   return parameters;
 }
 

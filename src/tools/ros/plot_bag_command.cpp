@@ -23,7 +23,13 @@ std::string topicOf(const rosbag::Bag& bag, const PlotBagArguments& arguments) {
   rosbag::View view(bag);
   std::set<std::string> topics;
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    if (connection->datatype == "sdf_ccd/ContactArray") topics.insert(connection->topic);
+    if (connection->datatype != "sdf_ccd/ContactArray") continue;
+    topics.insert(connection->topic);
+    if (arguments.topic.empty() || arguments.topic == connection->topic) {
+      requireDefinition<ContactArray>(*connection, arguments.bag,
+                                      "it was recorded with another version of sdf_ccd: plot it with that one, or make "
+                                      "new contacts from its transforms with `sdf_ccd check-bag`");
+    }
   }
   if (topics.empty()) throw std::runtime_error(arguments.bag + ": contains no sdf_ccd/ContactArray");
   if (arguments.topic.empty() && topics.size() > 1) {
@@ -42,7 +48,7 @@ void addAll(const rosbag::Bag& bag, const std::string& topic, CycleReport& repor
   for (const rosbag::MessageInstance& message : view) {
     bar(double(++count) / double(view.size()));
     const auto contacts = messageOf<ContactArray>(message);
-    if (!contacts) throw std::runtime_error(topic + " is of another version of sdf_ccd/ContactArray");
+    if (!contacts) throw std::runtime_error(topic + " holds messages of other types, too");
     report.add(*contacts);
   }
 }
