@@ -106,7 +106,7 @@ class Run:
                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def keep(self, state):
-        if not state.cycle_start.is_zero() and self.started is None:
+        if not state.cycle.start.is_zero() and self.started is None:
             self.started = time.monotonic()
         self.states.append(state)
 
@@ -148,7 +148,7 @@ def measure(urdf, parameters, voxels, subscribers, arguments):
         plan = rospy.ServiceProxy('/monitor/get_plan', GetPlan)().plan
         run.states.clear()
         time.sleep(1.0)
-        values['run_time_us'] = (1e6 * statistics.median(state.run_time for state in run.states), 'us')
+        values['run_time_us'] = (1e6 * statistics.median(state.cycle.run_time for state in run.states), 'us')
         cycles = (len(run.states) - 1) / (run.states[-1].header.stamp - run.states[0].header.stamp).to_sec()
         if subscribers == 'none':
             run.subscriber.unregister()
@@ -158,9 +158,9 @@ def measure(urdf, parameters, voxels, subscribers, arguments):
         used, passed = processor_time(run.monitor.pid) - before, time.monotonic() - begun
         values['processor_us_per_cycle'] = (1e6 * used / (passed * cycles), 'us')
         values['megabytes'] = (resident(run.monitor.pid), 'MB')
-        values['pairs'] = (len(plan.pairs_a), '')
-        values['shell_points'] = (sum(plan.shell_points), '')
-        values['megabytes_fields'] = (1e-6 * sum(plan.bytes), 'MB')
+        values['pairs'] = (len(plan.checked), '')
+        values['shell_points'] = (sum(body.shell_points for body in plan.bodies), '')
+        values['megabytes_fields'] = (1e-6 * sum(body.bytes for body in plan.bodies), 'MB')
         for other in others:
             other.unregister()
         return values

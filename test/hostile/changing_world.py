@@ -49,7 +49,7 @@ class ChangingMap:
 
         def read_plan(plan):
             with self.changed:
-                self.tiles = sum(name.startswith('octomap') for name in plan.names)
+                self.tiles = sum(body.name.startswith('octomap') for body in plan.bodies)
                 self.changed.notify_all()
 
         def read_state(state):

@@ -49,9 +49,9 @@ class AwaitedMapTest(MasterCase):
             self.assertEqual(first.unchecked[0].pairs, 2)  # with both balls
         self.assertIsNotNone(states.find_new(
             lambda m: m.verdict == Verdicts.NOT_CHECKED and 'octomap' in str(m.unchecked)))
-        plan = plans.find(lambda m: any(m.failures))
+        plan = plans.find(lambda m: any(body.failure for body in m.bodies))
         self.assertIsNotNone(plan)
-        self.assertIn('no map has been received on /map yet', ' '.join(plan.failures))
+        self.assertIn('no map has been received on /map yet', ' '.join(body.failure for body in plan.bodies))
         self.assertIsNotNone(self.bodies_are(DiagnosticStatus.ERROR))
         query = wait_for_service('/waits/query_motion', QueryMotion)
         answer = query(trajectory('slide', [0.0, 0.3]))

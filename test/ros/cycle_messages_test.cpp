@@ -8,6 +8,7 @@
 
 #include "oracle/scene_case.h"
 #include "ros/loop_case.h"
+#include "ros/monitor/plan_message.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/Verdicts.h"
@@ -108,6 +109,29 @@ TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
   EXPECT_EQ(state.unchecked, last().unchecked);
   EXPECT_EQ(state.cycle, last().cycle);
+}
+
+TEST_F(CycleMessagesTest, ThePlanSaysWhatIsCheckedAndWhyTheRestIsNot) {
+  BodyDescription finger = body("finger", Sphere{kRadius});
+  finger.frame = "hand";
+  const auto scene = build({body("hand", Sphere{kRadius}), finger, body("foot", meshShape({})),
+                            body("ground", HalfSpace{Vector3d::UnitZ(), -9.0}, true)});
+  loop_ = std::make_unique<MonitorLoop>(scene, describedWorld(), MonitorParameters());
+  const Plan plan = toPlan(*loop_->world(), "world", ros::Time(1.0));
+  ASSERT_EQ(plan.bodies.size(), 4u);
+  EXPECT_EQ(plan.bodies[1].name + " in " + plan.bodies[1].frame, "finger in hand");
+  EXPECT_EQ(plan.bodies[2].failure, scene->bodies[2].failure);
+  EXPECT_TRUE(plan.bodies[3].is_world && !plan.bodies[0].is_world);
+  EXPECT_NE(plan.bodies[3].no_shell, "") << "a plane cannot be covered with points";
+  std::vector<std::string> checked;
+  for (const PlanPair& pair : plan.checked)
+    checked.push_back(plan.bodies[pair.body_a].name + " - " + plan.bodies[pair.body_b].name);
+  EXPECT_EQ(checked, (std::vector<std::string>{"hand - foot", "hand - ground", "finger - foot", "finger - ground",
+                                               "foot - ground"}));
+  ASSERT_EQ(plan.left_out.size(), 1u);
+  EXPECT_EQ(plan.left_out[0].body_a + plan.left_out[0].body_b, 1u);
+  EXPECT_EQ(plan.left_out[0].kind, LeftOutPair::RIGID);
+  EXPECT_NE(plan.left_out[0].reason, "");
 }
 
 TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {

@@ -88,8 +88,9 @@ class ForcesTest(MasterCase):
         self.assertFalse([m.reason for m in checked[1:] if m.verdict != Verdicts.CONTACT][:3])
         first = plans.messages[0]
         self.assertIn('its field and shell are being built', first.part_reasons)
-        last = plans.find(lambda m: 'its field and shell are being built' not in m.part_reasons)
-        self.assertGreater(dict(zip(last.names, last.shell_points))['ball'], 1000)
+        built = plans.find(lambda m: 'its field and shell are being built' not in str(m.bodies))
+        ball, = [body for body in built.bodies if body.name == 'ball']
+        self.assertGreater(ball.shell_points, 1000)
 
     def test_forces_on_demand(self):
         plans = self.begin('demand', 'on_demand')

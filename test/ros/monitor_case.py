@@ -144,7 +144,8 @@ class MonitorCase(unittest.TestCase):
         cls.contacts = Recorder('/collision_monitor/contacts', ContactArray)
         cls.query_motion = wait_for_service('/collision_monitor/query_motion', QueryMotion)
         cls.stamp = rospy.Time.now()
-        assert Recorder('/collision_monitor/plan', Plan).find(lambda m: 'plate' in m.names, 60.0), 'no plan'
+        assert Recorder('/collision_monitor/plan', Plan).find(
+            lambda m: any(body.name == 'plate' for body in m.bodies), 60.0), 'no plan'
         end = time.monotonic() + 30.0
         while cls.contacts.find(lambda m: m.verdict == Verdicts.CLEAR, 0.0) is None:
             assert time.monotonic() < end, 'no complete cycle'

@@ -280,7 +280,7 @@ class Episode {
       found_.push_back({pair, result.verdict, cycle.origin + ros::Duration(cycle.motion.times[result.span.first]),
                         cycle.origin + ros::Duration(cycle.motion.times[result.span.last])});
     }
-    contradictions_ += !said_.back().contradicted_since.isZero();
+    contradictions_ += !said_.back().cycle.contradicted_since.isZero();
     contact_messages_ += said_.back().verdict == Verdicts::CONTACT;
   }
 
@@ -325,8 +325,9 @@ class Episode {
     const ros::Time time = stampOf(seconds);
     bool is_clear = false;
     for (const ContactArray& said : said_) {
-      if (!said.contradicted_since.isZero() && said.contradicted_since <= time) is_clear = false;
-      is_clear |= said.verdict == Verdicts::CLEAR && said.cycle_start <= time && time <= said.complete_until;
+      const CycleStatus& cycle = said.cycle;
+      if (!cycle.contradicted_since.isZero() && cycle.contradicted_since <= time) is_clear = false;
+      is_clear |= said.verdict == Verdicts::CLEAR && cycle.start <= time && time <= cycle.complete_until;
     }
     return is_clear;
   }

@@ -14,7 +14,7 @@ from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import Header
 
 from monitor_case import CUBE, MovingBalls, Recorder, box, pose, touches, wait_for_service
-from sdf_ccd.msg import ContactArray, MonitorState, Plan, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, LeftOutPair, MonitorState, Plan, SceneChange, Verdicts
 from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
 
 
@@ -116,9 +116,11 @@ class WorldTest(unittest.TestCase):
         self.assertIsNotNone(self.clear(allowed.scene_version))
         plan = self.get_plan().plan
         self.assertEqual(plan.scene_version, allowed.scene_version)
-        left_out = {(plan.names[a], plan.names[b]): plan.reasons[r]
-                    for a, b, r in zip(plan.left_out_a, plan.left_out_b, plan.left_out_reason)}
-        self.assertEqual(left_out[('ball', 'box')], 'update_scene: b?x - *')
+        names = [body.name for body in plan.bodies]
+        left_out = {(names[pair.body_a], names[pair.body_b]): pair for pair in plan.left_out}
+        self.assertEqual(left_out[('ball', 'box')].reason, 'update_scene: b?x - *')
+        self.assertEqual(left_out[('ball', 'box')].kind, LeftOutPair.REQUEST)
+        self.assertIn(('ball', 'other'), [(names[pair.body_a], names[pair.body_b]) for pair in plan.checked])
         self.assertIsNotNone(self.plans.find(lambda m: m.scene_version == allowed.scene_version))
         checked = self.change(SceneChange(operation=SceneChange.CHECK, body_a='box', body_b='ball'))
         self.assertIsNotNone(self.touching('ball', 'box', checked.scene_version))

@@ -5,6 +5,22 @@
 #include "monitor/plan/scene_totals.h"
 
 namespace sdf_ccd {
+namespace {
+
+constexpr bool isKind(PairKind kind, int of_message) {
+  return static_cast<int>(kind) == of_message;
+}
+static_assert(isKind(PairKind::kRequest, LeftOutPair::REQUEST) &&
+                  isKind(PairKind::kTouchLinks, LeftOutPair::TOUCH_LINKS) &&
+                  isKind(PairKind::kUser, LeftOutPair::USER) && isKind(PairKind::kSrdf, LeftOutPair::SRDF) &&
+                  isKind(PairKind::kRigid, LeftOutPair::RIGID) && isKind(PairKind::kAdjacent, LeftOutPair::ADJACENT) &&
+                  isKind(PairKind::kEmpty, LeftOutPair::EMPTY) && isKind(PairKind::kNever, LeftOutPair::NEVER) &&
+                  isKind(PairKind::kAlways, LeftOutPair::ALWAYS) && isKind(PairKind::kHeld, LeftOutPair::HELD) &&
+                  isKind(PairKind::kAtRest, LeftOutPair::AT_REST) &&
+                  isKind(PairKind::kMayAtRest, LeftOutPair::MAY_AT_REST),
+              "as in the messages");
+
+}  // namespace
 
 Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros::Time& now) {
   const Scene& scene = world.scene();
@@ -12,40 +28,40 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   plan.header.stamp = now;
   plan.header.frame_id = fixed_frame;
   plan.scene_version = world.version();
+  std::map<std::string, std::size_t> bodies;  // by name
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     const BodyReport& report = scene.reports[b];
-    plan.names.push_back(body.name);
-    plan.ids.push_back(b < world.snapshot->body_ids.size() ? world.snapshot->body_ids[b] : b + 1);
-    plan.frames.push_back(body.frame);
-    plan.is_world.push_back(static_cast<std::uint8_t>(body.is_world));
-    plan.geometry.push_back(report.geometry);
-    plan.fields.push_back(report.field);
-    plan.bytes.push_back(report.field_bytes + report.shell_bytes);
-    plan.shell_points.push_back(static_cast<std::uint32_t>(report.shell_points));
-    plan.error_bounds.push_back(report.bound.total());
-    plan.failures.push_back(body.failure);
+    bodies.emplace(body.name, b);
+    PlanBody& listed = plan.bodies.emplace_back();
+    listed.name = body.name;
+    listed.id = b < world.snapshot->body_ids.size() ? world.snapshot->body_ids[b] : b + 1;
+    listed.frame = body.frame;
+    listed.is_world = static_cast<std::uint8_t>(body.is_world);
+    listed.geometry = report.geometry;
+    listed.failure = body.failure;
+    listed.error_bound = report.bound.total();
+    listed.field = report.field;
+    listed.shell_points = static_cast<std::uint32_t>(report.shell_points);
+    listed.bytes = report.field_bytes + report.shell_bytes;
     for (const std::string& warning : report.warnings) plan.warnings.push_back(report.name + ": " + warning);
   }
-  for (const PlannedPair& pair : scene.pairs) {
-    plan.pairs_a.push_back(static_cast<std::uint32_t>(pair.body_a));
-    plan.pairs_b.push_back(static_cast<std::uint32_t>(pair.body_b));
-  }
-  constexpr std::size_t kMaxReasons = 65535;
-  std::map<std::string, std::uint16_t> reasons;
-  for (const PairDecision& pair : scene.left_out) {
-    const bool is_full = plan.reasons.size() >= kMaxReasons;
-    const auto [known, is_new] =
-        reasons.emplace(is_full ? plan.reasons.back() : pair.text, static_cast<std::uint16_t>(plan.reasons.size()));
-    if (is_new) plan.reasons.push_back(known->first);
-    plan.left_out_a.push_back(static_cast<std::uint32_t>(pair.a));
-    plan.left_out_b.push_back(static_cast<std::uint32_t>(pair.b));
-    plan.left_out_reason.push_back(known->second);
-    plan.left_out_depth.push_back(pair.depth);
-  }
   for (const LeftOutPart& part : scene.parts_left_out) {
-    plan.parts_left_out.push_back(part.kind + " of " + part.body);
-    plan.part_reasons.push_back(part.reason);
+    PlanBody& body = plan.bodies[bodies.at(part.body)];
+    (part.kind == "field" ? body.no_field : body.no_shell) = part.reason;
+  }
+  for (const PlannedPair& pair : scene.pairs) {
+    PlanPair& checked = plan.checked.emplace_back();
+    checked.body_a = static_cast<std::uint32_t>(pair.body_a);
+    checked.body_b = static_cast<std::uint32_t>(pair.body_b);
+  }
+  for (const PairDecision& pair : scene.left_out) {
+    LeftOutPair& left_out = plan.left_out.emplace_back();
+    left_out.body_a = static_cast<std::uint32_t>(pair.a);
+    left_out.body_b = static_cast<std::uint32_t>(pair.b);
+    left_out.kind = static_cast<std::uint8_t>(pair.kind);
+    left_out.reason = pair.text;
+    left_out.depth = pair.depth;
   }
   plan.pairs_of_objects = pairsOfObjects(scene.bodies);
   plan.visual_only = scene.visual_only;

@@ -48,7 +48,7 @@ Isometry3d messagePose(SettingsReader& reader) {
   const std::vector<double> q = fields(reader, "orientation", {"x", "y", "z", "w"}, {0.0, 0.0, 0.0, 1.0});
   requireNear(reader, "position", {p[0], p[1], p[2]});
   const auto pose = poseOf({p[0], p[1], p[2]}, {q[3], q[0], q[1], q[2]});
-  if (!pose) reader.fail("orientation", "a unit quaternion");
+  if (!pose) reader.fail("orientation", "a unit quaternion, w: 1 for no rotation");
   return *pose;
 }
 
