@@ -27,7 +27,8 @@ struct Case {
 
 std::vector<Case> cases() {
   const Vector3d x = Vector3d::UnitX(), z = Vector3d::UnitZ();
-  const Primitive ball = Sphere{0.1}, post = Cylinder{0.06, 0.2}, crate = Box{{0.1, 0.08, 0.05}}, ground = HalfSpace{};
+  const Primitive ball = Sphere{0.1}, post = Cylinder::fromRadiusAndLength(0.06, 0.4),
+                  crate = Box::fromSize({0.2, 0.16, 0.1}), ground = HalfSpace{};
   const test::Shape dense = test::meshShape(test::icosphere(0.1, 4)), coarse = test::meshShape(test::icosphere(0.1, 3));
   return {{"balls/deep", ball, ball, 0.15, x},
           {"cylinders/deep", post, post, 0.08, x},
@@ -64,10 +65,10 @@ struct FclShape {
     return std::make_shared<fcl::Sphered>(ball.radius);
   }
   std::shared_ptr<fcl::CollisionGeometryd> operator()(const Box& box) const {
-    return std::make_shared<fcl::Boxd>(2.0 * box.half_size);
+    return std::make_shared<fcl::Boxd>(box.size);
   }
   std::shared_ptr<fcl::CollisionGeometryd> operator()(const Cylinder& cylinder) const {
-    return std::make_shared<fcl::Cylinderd>(cylinder.radius, 2.0 * cylinder.half_length);
+    return std::make_shared<fcl::Cylinderd>(cylinder.radius, cylinder.length);
   }
   std::shared_ptr<fcl::CollisionGeometryd> operator()(const HalfSpace& plane) const {
     return std::make_shared<fcl::Halfspaced>(plane.normal, plane.offset);

@@ -105,7 +105,8 @@ void run(const Case& tried, Scheme scheme) {
 Scene tumble(double size = 0.1) {
   Scene scene;
   scene.world.contact.damping = 1e4;
-  scene.world.bodies = {groundBody(), primitiveBody("box", Box{Vector3d(0.5, 0.4, 0.3) * size}, 1000.0, 0.2 * size)};
+  scene.world.bodies = {groundBody(),
+                        primitiveBody("box", Box::fromSize(2.0 * Vector3d(0.5, 0.4, 0.3) * size), 1000.0, 0.2 * size)};
   scene.states = {at(Vector3d::Zero()), at({0, 0, 1.5 * size}, {0.3 * size, 0, 0}, {1, 2, 3})};
   scene.depth_limit = size;
   return scene;
@@ -146,7 +147,7 @@ std::vector<Case> physicalCases() {
     cases.push_back({std::string("mass_ratio=1e6 ") + (heavy_on_top ? "heavy on light" : "light on heavy"), kStable,
                      [heavy_on_top] {
                        Scene scene;
-                       const Primitive box = Box{{0.05, 0.05, 0.05}};
+                       const Primitive box = Box::fromSize({0.1, 0.1, 0.1});
                        scene.world.bodies = {groundBody(), primitiveBody("below", box, heavy_on_top ? 1.0 : 1e6, 0.02),
                                              primitiveBody("above", box, heavy_on_top ? 1e6 : 1.0, 0.02)};
                        scene.world.contact.stiffness = 1e11;  // 10⁶ kg/m³ on 0.1 m press 10 µm deep
@@ -215,7 +216,7 @@ std::vector<Case> placedCases() {
   cases.push_back({"shells exactly coincident", kStable, [] { return blobs(Vector3d::Zero()); }});
   cases.push_back({"boxes face to face", kStable, [] {
                      Scene scene;
-                     const RigidBody box = primitiveBody("below", Box{{0.05, 0.05, 0.05}}, 1000.0, 0.02);
+                     const RigidBody box = primitiveBody("below", Box::fromSize({0.1, 0.1, 0.1}), 1000.0, 0.02);
                      scene.world.bodies = {groundBody(), box, box};
                      scene.world.bodies[2].name = "above";
                      scene.states = {at(Vector3d::Zero()), at({0, 0, 0.05}), at({0, 0, 0.15})};
@@ -233,7 +234,7 @@ std::vector<Case> placedCases() {
   cases.push_back({"wholly inside another", kStable, [] {
                      Scene scene;
                      scene.world.bodies = {groundBody(), primitiveBody("outer", Sphere{0.2}, 1000.0, 0.03),
-                                           primitiveBody("inner", Box{{0.02, 0.02, 0.02}}, 1000.0, 0.01)};
+                                           primitiveBody("inner", Box::fromSize({0.04, 0.04, 0.04}), 1000.0, 0.01)};
                      scene.states = {at(Vector3d::Zero()), at({0, 0, 0.2}), at({0.01, 0.02, 0.21})};
                      scene.depth_limit = 0.2;
                      return scene;

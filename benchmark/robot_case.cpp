@@ -63,7 +63,7 @@ BodyDescription randomBox(const Robot& robot, int number, test::Random& random) 
   box.is_world = true;
   GeometryDescription& shape = box.geometry.emplace_back();
   const auto half = [&] { return test::uniform(random, 0.03, 0.15); };
-  shape.shape = Primitive(Box{{half(), half(), half()}});
+  shape.shape = Primitive(Box::fromSize({2.0 * half(), 2.0 * half(), 2.0 * half()}));
   shape.source = "box";
   return box;
 }

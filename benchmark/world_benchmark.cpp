@@ -57,7 +57,8 @@ BodyDescription bodyOf(const std::string& name, const Primitive& primitive, bool
 /// A swinging arm of boxes in a row.
 std::vector<BodyDescription> links() {
   std::vector<BodyDescription> links;
-  for (int i = 0; i < kLinks; ++i) links.push_back(bodyOf("link" + std::to_string(i), Box{{0.05, 0.04, 0.04}}, false));
+  for (int i = 0; i < kLinks; ++i)
+    links.push_back(bodyOf("link" + std::to_string(i), Box::fromSize({0.1, 0.08, 0.08}), false));
   return links;
 }
 
@@ -73,7 +74,7 @@ BodyDescription object(int i, std::mt19937& random) {
   std::uniform_real_distribution<double> angle(1.2, 5.1), reach(0.4, 4.0), height(0.0, 2.0);
   const int kind = i % 8;  // boxes of eight sizes, like goods on shelves
   const Vector3d size(0.02 + 0.005 * kind, 0.05, 0.08 - 0.005 * kind);
-  BodyDescription body = bodyOf("object" + std::to_string(i), Box{size}, true);
+  BodyDescription body = bodyOf("object" + std::to_string(i), Box::fromSize(2.0 * size), true);
   const double a = angle(random), r = reach(random);
   body.X_frame_B.translation() = Vector3d(r * std::cos(a), r * std::sin(a), height(random));
   return body;

@@ -12,7 +12,7 @@ int main() {
   ground.fixed = true;
   ground.shape = std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), {}));
 
-  const Primitive cube = Box{{0.05, 0.05, 0.05}};  // half sides [m]
+  const Primitive cube = Box::fromSize({0.1, 0.1, 0.1});  // [m]
   const MassProperties mass = massProperties(cube, 1000.0);
   ShellOptions points;
   points.spacing = 0.02;

@@ -21,7 +21,7 @@ int main() {
   using namespace sdf_ccd;
   writePart("part.off");
   const Accuracy mm{1e-3};
-  const Body table = prepareBody("table", Box{{0.5, 0.5, 0.01}}, mm),
+  const Body table = prepareBody("table", Box::fromSize({1.0, 1.0, 0.02}), mm),
              part = prepareBody("part", loadMesh("part.off"), mm);
 
   const Vector3d start(-0.1, 0.0, 0.0), end(0.1, 0.0, 0.0);

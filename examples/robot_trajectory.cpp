@@ -22,7 +22,7 @@ int main() {
   WorldObject post;  // between the trajectory's two ends
   post.name = "post";
   post.X_frame_B = Eigen::Translation3d(0.6, 0.0, 0.6);
-  post.shapes.push_back({Cylinder{0.02, 0.1}});
+  post.shapes.push_back({Cylinder::fromRadiusAndLength(0.02, 0.2)});
   const RobotScene scene = RobotScene::parse(kArm, {}, {post});  // RobotScene::load() reads files
   for (const std::string& warning : scene.warnings()) std::printf("warning: %s\n", warning.c_str());
 

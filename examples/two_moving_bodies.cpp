@@ -16,8 +16,8 @@ Isometry3d at(double x, double y) {
 int main() {
   // A plate 1 mm thick and a rod. Their poses are given before and after they pass through each other.
   const Accuracy accuracy{1e-3, {}};
-  Monitor monitor(
-      {prepareBody("plate", Box{{0.2, 0.0005, 0.2}}, accuracy), prepareBody("rod", Box{{0.01, 0.05, 0.01}}, accuracy)});
+  Monitor monitor({prepareBody("plate", Box::fromSize({0.4, 0.001, 0.4}), accuracy),
+                   prepareBody("rod", Box::fromSize({0.02, 0.1, 0.02}), accuracy)});
   const CycleResult& result = monitor.check({{at(0.0, 0.2), at(0.0, -0.2)}, {at(0.0, -0.2), at(0.0, 0.2)}}, 0.1);
   std::printf("%s, within %.2g m\n", toString(result.verdict), result.error_bound);
   for (const PairResult& pair : result.pairs)

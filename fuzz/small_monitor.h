@@ -23,7 +23,7 @@ class SmallMonitor {
     for (const double x : {0.6, -0.8}) {
       WorldObject wall;
       wall.name = x > 0.0 ? "front" : "back";
-      wall.shapes = {{Primitive(Box{Vector3d(0.02, 0.5, 0.5)})}};
+      wall.shapes = {{Primitive(Box::fromSize({0.04, 1.0, 1.0}))}};
       wall.X_frame_B.translation().x() = x;
       parameters_.world.push_back(wall);
     }

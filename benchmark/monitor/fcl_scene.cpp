@@ -17,10 +17,10 @@ namespace {
 std::shared_ptr<fcl::CollisionGeometryd> geometryOf(const GeometryDescription& geometry) {
   if (const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape)) return fclModel(**mesh);
   const Primitive& primitive = std::get<Primitive>(geometry.shape);
-  if (const auto* box = std::get_if<Box>(&primitive)) return fclModel(test::boxMesh(box->half_size));
+  if (const auto* box = std::get_if<Box>(&primitive)) return fclModel(test::boxMesh(box->halfSize()));
   if (const auto* sphere = std::get_if<Sphere>(&primitive)) return std::make_shared<fcl::Sphered>(sphere->radius);
   if (const auto* cylinder = std::get_if<Cylinder>(&primitive))
-    return std::make_shared<fcl::Cylinderd>(cylinder->radius, 2.0 * cylinder->half_length);
+    return std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
   throw std::invalid_argument("FCL scene: a half-space");
 }
 

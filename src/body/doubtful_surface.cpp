@@ -34,7 +34,7 @@ Doubt doubtOf(const BodyDescription& description, MeshPool& pool) {
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       if (isHalfSpace(*primitive)) continue;
       const AlignedBox3d box = boundingBox(*primitive);
-      part = transformed(tessellate(Box{0.5 * box.sizes()}, 1.0), Isometry3d(Eigen::Translation3d(box.center())));
+      part = transformed(tessellate(Box::fromSize(box.sizes()), 1.0), Isometry3d(Eigen::Translation3d(box.center())));
     } else {
       PooledMesh& pooled = pool.find(geometry);
       any = any || mayMissSolids(pooled);

@@ -16,10 +16,10 @@ void append(const double* numbers, std::size_t count, std::string& key) {
 struct AppendSizes {
   std::string& key;
   void operator()(const Sphere& sphere) const { append(&sphere.radius, 1, key); }
-  void operator()(const Box& box) const { append(box.half_size.data(), 3, key); }
+  void operator()(const Box& box) const { append(box.size.data(), 3, key); }
   void operator()(const Cylinder& cylinder) const {
     append(&cylinder.radius, 1, key);
-    append(&cylinder.half_length, 1, key);
+    append(&cylinder.length, 1, key);
   }
   void operator()(const HalfSpace& half_space) const {
     append(half_space.normal.data(), 3, key);

@@ -14,7 +14,7 @@ namespace sdf_ccd {
 }
 
 /// @param unit  behind the value in the message: " m".
-/// @throws std::invalid_argument unless the value is finite and positive: "a box's half size must be finite and
+/// @throws std::invalid_argument unless the value is finite and positive: "a box's size must be finite and
 /// positive, not 0".
 inline void requirePositive(const std::string& what, double value, const char* unit = "") {
   if (std::isfinite(value) && value > 0.0) return;

@@ -19,9 +19,9 @@ std::optional<HalfSpace> nearestFace(const Primitive& primitive, const Vector3d&
   const Box* box = std::get_if<Box>(&primitive);
   if (!box) return std::nullopt;
   int axis = 0;
-  (p.cwiseAbs() - box->half_size).maxCoeff(&axis);
+  (p.cwiseAbs() - box->halfSize()).maxCoeff(&axis);
   return HalfSpace{p[axis] < 0.0 ? Vector3d(-Vector3d::Unit(axis)) : Vector3d(Vector3d::Unit(axis)),
-                   box->half_size[axis]};
+                   box->halfSize()[axis]};
 }
 
 }  // namespace

@@ -32,11 +32,11 @@ Moments momentsOf(const Sphere& s) {
   return {4.0 / 3.0 * kPi * std::pow(s.radius, 3), Vector3d::Constant(s.radius * s.radius / 5.0)};
 }
 Moments momentsOf(const Box& b) {
-  return {8.0 * b.half_size.prod(), b.half_size.cwiseAbs2() / 3.0};
+  return {b.size.prod(), b.size.cwiseAbs2() / 12.0};
 }
 Moments momentsOf(const Cylinder& c) {
   const double across = c.radius * c.radius / 4.0;
-  return {2.0 * kPi * c.radius * c.radius * c.half_length, {across, across, c.half_length * c.half_length / 3.0}};
+  return {kPi * c.radius * c.radius * c.length, {across, across, c.length * c.length / 12.0}};
 }
 Moments momentsOf(const HalfSpace&) {
   throw std::invalid_argument("mass: a half-space has no finite mass");

@@ -13,21 +13,20 @@ namespace {
 struct Area {
   double operator()(const Sphere& s) const { return 4 * kPi * s.radius * s.radius; }
   double operator()(const Box& b) const {
-    const Vector3d& h = b.half_size;
-    return 8 * (h.x() * h.y() + h.y() * h.z() + h.z() * h.x());
+    return 2 * (b.size.x() * b.size.y() + b.size.y() * b.size.z() + b.size.z() * b.size.x());
   }
-  double operator()(const Cylinder& c) const { return 2 * kPi * c.radius * (c.radius + 2 * c.half_length); }
+  double operator()(const Cylinder& c) const { return 2 * kPi * c.radius * (c.radius + c.length); }
   double operator()(const HalfSpace&) const { return kInfinity; }
 };
 
 struct Validate {
   void operator()(const Sphere& sphere) const { requirePositive("a sphere's radius", sphere.radius); }
   void operator()(const Box& box) const {
-    for (int axis = 0; axis < 3; ++axis) requirePositive("a box's half size", box.half_size[axis]);
+    for (int axis = 0; axis < 3; ++axis) requirePositive("a box's size", box.size[axis]);
   }
   void operator()(const Cylinder& cylinder) const {
     requirePositive("a cylinder's radius", cylinder.radius);
-    requirePositive("a cylinder's half length", cylinder.half_length);
+    requirePositive("a cylinder's length", cylinder.length);
   }
   void operator()(const HalfSpace& half_space) const {
     if (half_space.normal.allFinite() && std::abs(half_space.normal.norm() - 1) <= 1e-9 &&
@@ -61,13 +60,13 @@ double sign(double x) {
 }
 
 Eigen::Vector2d rim(const Cylinder& cylinder, const Vector3d& p) {
-  return {p.head<2>().norm() - cylinder.radius, std::abs(p.z()) - cylinder.half_length};
+  return {p.head<2>().norm() - cylinder.radius, std::abs(p.z()) - cylinder.halfLength()};
 }
 
 struct Distance {
   const Vector3d& p;
   double operator()(const Sphere& sphere) const { return p.norm() - sphere.radius; }
-  double operator()(const Box& box) const { return cornerDistance<Vector3d>(p.cwiseAbs() - box.half_size); }
+  double operator()(const Box& box) const { return cornerDistance<Vector3d>(p.cwiseAbs() - box.halfSize()); }
   double operator()(const Cylinder& cylinder) const { return cornerDistance(rim(cylinder, p)); }
   double operator()(const HalfSpace& half_space) const { return half_space.normal.dot(p) - half_space.offset; }
 };
@@ -79,7 +78,7 @@ struct Gradient {
     return norm > 0 ? Vector3d(p / norm) : Vector3d::UnitZ();
   }
   Vector3d operator()(const Box& box) const {
-    const Vector3d gradient = cornerGradient<Vector3d>(p.cwiseAbs() - box.half_size);
+    const Vector3d gradient = cornerGradient<Vector3d>(p.cwiseAbs() - box.halfSize());
     return gradient.cwiseProduct(Vector3d(sign(p.x()), sign(p.y()), sign(p.z())));
   }
   Vector3d operator()(const Cylinder& cylinder) const {
@@ -93,9 +92,9 @@ struct Gradient {
 
 struct Bounds {
   AlignedBox3d operator()(const Sphere& sphere) const { return symmetric(Vector3d::Constant(sphere.radius)); }
-  AlignedBox3d operator()(const Box& box) const { return symmetric(box.half_size); }
+  AlignedBox3d operator()(const Box& box) const { return symmetric(box.halfSize()); }
   AlignedBox3d operator()(const Cylinder& cylinder) const {
-    return symmetric({cylinder.radius, cylinder.radius, cylinder.half_length});
+    return symmetric({cylinder.radius, cylinder.radius, cylinder.halfLength()});
   }
   AlignedBox3d operator()(const HalfSpace&) const { return symmetric(Vector3d::Constant(kInfinity)); }
   static AlignedBox3d symmetric(const Vector3d& half) { return AlignedBox3d(-half, half); }

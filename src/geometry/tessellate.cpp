@@ -77,7 +77,7 @@ struct Tessellate {
     TriangleMesh mesh;
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3d sign((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
-      mesh.vertices.push_back(box.half_size.cwiseProduct(sign));
+      mesh.vertices.push_back(box.halfSize().cwiseProduct(sign));
     }
     constexpr std::array<std::array<int, 4>, 6> kFaces = {
         {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
@@ -96,12 +96,12 @@ struct Tessellate {
     requireRoom(sides < 1e12 ? static_cast<std::size_t>(4 * sides) : kMaxTriangles + 1);
     const int n = static_cast<int>(sides);
     TriangleMesh mesh;
-    mesh.vertices = {{0, 0, -cylinder.half_length}, {0, 0, cylinder.half_length}};
+    mesh.vertices = {{0, 0, -cylinder.halfLength()}, {0, 0, cylinder.halfLength()}};
     for (int i = 0; i < n; ++i) {
       const double angle = 2 * kPi * i / n;
       const double x = cylinder.radius * std::cos(angle), y = cylinder.radius * std::sin(angle);
-      mesh.vertices.emplace_back(x, y, -cylinder.half_length);
-      mesh.vertices.emplace_back(x, y, cylinder.half_length);
+      mesh.vertices.emplace_back(x, y, -cylinder.halfLength());
+      mesh.vertices.emplace_back(x, y, cylinder.halfLength());
       const int low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % n);
       mesh.triangles.emplace_back(0, next, low);
       mesh.triangles.emplace_back(1, low + 1, next + 1);

@@ -78,7 +78,7 @@ class NearestBodySearch::Element {
 
   double lowerBound(const Vector3d& p_G) const {
     if (const auto* box = std::get_if<AlignedBox3d>(&source_))
-      return signedDistance(Box{0.5 * box->sizes()}, p_G - box->center());
+      return signedDistance(Box::fromSize(box->sizes()), p_G - box->center());
     if (const auto* field = std::get_if<DistanceField>(&source_)) return field->lowerBound(p_G);
     return std::get<MeshDistancePointer>(source_)->lowerBound(p_G);
   }

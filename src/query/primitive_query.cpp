@@ -128,7 +128,7 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
   };
   if (const Box* box = std::get_if<Box>(&primitive)) {
     // Inside, the distance is the largest of six linear functions, with kinks where two of them are equal.
-    const Vector3d d = segment.end - segment.start;
+    const Vector3d d = segment.end - segment.start, half = box->halfSize();
     for (int i = 0; i < 6; ++i) {
       for (int j = i + 1; j < 6; ++j) {
         const auto face = [&](int n) { return std::pair<int, double>{n / 2, n % 2 ? -1.0 : 1.0}; };
@@ -136,7 +136,7 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
         const auto [b, sb] = face(j);
         const double slope = sa * d[a] - sb * d[b];
         if (slope == 0.0) continue;
-        add(((box->half_size[a] - sa * segment.start[a]) - (box->half_size[b] - sb * segment.start[b])) / slope);
+        add(((half[a] - sa * segment.start[a]) - (half[b] - sb * segment.start[b])) / slope);
       }
     }
     std::sort(breaks.begin(), breaks.end());
@@ -150,7 +150,7 @@ void primitivePieces(const Primitive& primitive, const Segment& segment, const I
     // Inside, the distance is the larger one of that from the side and those from both caps.
     const double z = segment.start.z(), slope = segment.end.z() - z;
     if (slope != 0.0) add(-z / slope);
-    const double free = cylinder->radius - cylinder->half_length;
+    const double free = cylinder->radius - cylinder->halfLength();
     line.addCrossings(free + z, slope, add);
     line.addCrossings(free - z, -slope, add);
   }

@@ -23,13 +23,14 @@ SDF_CCD_INLINE Doubles distance(const Sphere& sphere, const Vectors& p) {
 
 SDF_CCD_INLINE Doubles distance(const Box& box, const Vectors& p) {
   const Doubles zero = {};
-  const Vectors q{absolute(p.x) - box.half_size[0], absolute(p.y) - box.half_size[1], absolute(p.z) - box.half_size[2]};
+  const Vector3d half = box.halfSize();
+  const Vectors q{absolute(p.x) - half[0], absolute(p.y) - half[1], absolute(p.z) - half[2]};
   const Vectors out{larger(q.x, zero), larger(q.y, zero), larger(q.z, zero)};
   return squareRoot(out.dot(out)) + smaller(larger(q.x, larger(q.y, q.z)), zero);
 }
 
 SDF_CCD_INLINE Doubles distance(const Cylinder& cylinder, const Vectors& p) {
-  return cornerDistance(squareRoot(p.x * p.x + p.y * p.y) - cylinder.radius, absolute(p.z) - cylinder.half_length);
+  return cornerDistance(squareRoot(p.x * p.x + p.y * p.y) - cylinder.radius, absolute(p.z) - cylinder.halfLength());
 }
 
 SDF_CCD_INLINE Doubles distance(const HalfSpace& half_space, const Vectors& p) {

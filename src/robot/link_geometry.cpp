@@ -23,13 +23,13 @@ std::vector<GeometryDescription> LinkGeometryLoader::load(const urdf::Link& link
       }
       case urdf::Geometry::BOX: {
         const auto& box = static_cast<const urdf::Box&>(*collision->geometry);
-        element.shape = Primitive(Box{toEigen(box.dim) / 2.0});
+        element.shape = Primitive(Box::fromSize(toEigen(box.dim)));
         element.source = "box";
         break;
       }
       case urdf::Geometry::CYLINDER: {
         const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision->geometry);
-        element.shape = Primitive(Cylinder{cylinder.radius, cylinder.length / 2.0});
+        element.shape = Primitive(Cylinder::fromRadiusAndLength(cylinder.radius, cylinder.length));
         element.source = "cylinder";
         break;
       }

@@ -9,10 +9,10 @@ std::optional<Primitive> readPrimitive(SettingsReader& shape, const std::string&
   if (type == "box") {
     const Vector3d size = shape.vector("size");
     if (!(size.minCoeff() > 0.0)) shape.fail("size", "three positive numbers");
-    return Box{0.5 * size};
+    return Box::fromSize(size);
   }
   if (type == "sphere") return Sphere{shape.positive("radius")};
-  if (type == "cylinder") return Cylinder{shape.positive("radius"), 0.5 * shape.positive("length")};
+  if (type == "cylinder") return Cylinder::fromRadiusAndLength(shape.positive("radius"), shape.positive("length"));
   if (type == "plane") return HalfSpace{Vector3d::UnitZ(), 0.0};
   return std::nullopt;
 }

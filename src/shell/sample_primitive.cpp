@@ -18,9 +18,9 @@ void lift(const Sphere& sphere, Vector3d& p, Vector3d& normal) {
 void lift(const Box&, Vector3d&, Vector3d&) {}  // the tessellation is the box
 void lift(const Cylinder& cylinder, Vector3d& p, Vector3d& normal) {
   const double rho = p.head<2>().norm();
-  const bool on_cap = std::abs(p.z()) >= cylinder.half_length * (1 - 1e-12);
+  const bool on_cap = std::abs(p.z()) >= cylinder.halfLength() * (1 - 1e-12);
   const Vector3d axial(0, 0, p.z() < 0 ? -1 : 1);
-  if (on_cap) p.z() = axial.z() * cylinder.half_length;
+  if (on_cap) p.z() = axial.z() * cylinder.halfLength();
   if (on_cap && rho < cylinder.radius * (1 - 1e-9)) {
     normal = axial;
     return;

@@ -81,7 +81,7 @@ TriangleMesh solidBelow() {
 void addBox(const Vector3d& half, const Vector3d& place, Actor& body) {
   Isometry3d X_BG = Isometry3d::Identity();
   X_BG.translation() = place;
-  body.geometry.push_back({Primitive(Box{half}), X_BG, "part"});
+  body.geometry.push_back({Primitive(Box::fromSize(2.0 * half)), X_BG, "part"});
   body.solid.push_back(convexOf(translated(boxMesh(half), place)));
 }
 

@@ -50,8 +50,11 @@ Actor convexActor(const std::string& kind, const TriangleMesh& mesh, const Vecto
 Actor boxActor(const Vector3d& half_size, const Vector3d& offset) {
   Isometry3d X_BG = Isometry3d::Identity();
   X_BG.translation() = offset;
-  return {
-      "box", {{Primitive(Box{half_size}), X_BG, "box"}}, {convexOf(translated(boxMesh(half_size), offset))}, {}, true};
+  return {"box",
+          {{Primitive(Box::fromSize(2.0 * half_size)), X_BG, "box"}},
+          {convexOf(translated(boxMesh(half_size), offset))},
+          {},
+          true};
 }
 
 Actor ballActor(double radius) {

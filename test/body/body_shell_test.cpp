@@ -68,8 +68,8 @@ double nearest(const Union& shell, const Isometry3d& X_FP, const Union& field) {
 
 /// Elements with sharp edges, with round edges, and a bead whose points cover all of it, joined.
 Union tool() {
-  return Union({{Box{{0.04, 0.02, 0.01}}, Isometry3d::Identity()},
-                {Cylinder{0.008, 0.05}, pose({0.07, 0, 0}, 1.5707963, {0, 1, 0})},
+  return Union({{Box::fromSize({0.08, 0.04, 0.02}), Isometry3d::Identity()},
+                {Cylinder::fromRadiusAndLength(0.008, 0.1), pose({0.07, 0, 0}, 1.5707963, {0, 1, 0})},
                 {Sphere{0.008}, translation({0.12, 0, 0})}});
 }
 
@@ -77,7 +77,7 @@ TEST(UnionShell, KeepsTheGapOfItsElements) {
   const Union whole = tool();
   const PointShell bead = sampleSurface(Primitive(Sphere{0.008}), options());
   ASSERT_EQ(bead.edge_radius, std::numeric_limits<double>::infinity()) << "the bead is not covered all over";
-  const PointShell plate = sampleSurface(Primitive(Box{{0.2, 0.2, 0.01}}), options());
+  const PointShell plate = sampleSurface(Primitive(Box::fromSize({0.4, 0.4, 0.02})), options());
   const double largest = kGap * (1 + 1e-9) + std::max(whole.shell.position_error, plate.position_error);
   EXPECT_LE(contactGap(whole.shell, whole.shell), largest);
   EXPECT_LE(contactGap(whole.shell, plate), largest);
@@ -88,8 +88,8 @@ TEST(UnionShell, KeepsTheGapOfItsElements) {
 TEST(UnionShell, GapHoldsWhereverUnionsMeet) {
   const Union a = tool();
   // Two crossing plates meet in concave seams, which are edges of neither.
-  const Union b({{Box{{0.05, 0.05, 0.004}}, Isometry3d::Identity()},
-                 {Box{{0.05, 0.05, 0.004}}, pose({0, 0, 0.01}, 1.2, {1, 0, 0})}});
+  const Union b({{Box::fromSize({0.1, 0.1, 0.008}), Isometry3d::Identity()},
+                 {Box::fromSize({0.1, 0.1, 0.008}), pose({0, 0, 0.01}, 1.2, {1, 0, 0})}});
   Random random(5);
   double largest = 0.0;
   for (int i = 0; i < 200; ++i) {

@@ -21,7 +21,7 @@ Isometry3d at(double x, double y, double z) {
 }
 
 TEST(PrepareBody, PassesThroughATable) {
-  const Body table = prepareBody("table", Box{{0.5, 0.5, 0.01}}, kMillimetre);
+  const Body table = prepareBody("table", Box::fromSize({1.0, 1.0, 0.02}), kMillimetre);
   const Body part = prepareBody("part", test::boxMesh({0.02, 0.02, 0.02}), kMillimetre);
   Monitor monitor({table, part});
   const Isometry3d X_WT = Isometry3d::Identity();
@@ -65,7 +65,7 @@ TEST(PrepareBody, SeesWhatCrossesAnOpenMesh) {
 TEST(PrepareBody, GroundHasNoShell) {
   const Body ground = prepareBody("ground", HalfSpace{Vector3d::UnitZ(), 0.0}, kMillimetre);
   EXPECT_EQ(ground.shell->size(), 0u);
-  Monitor monitor({ground, prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
+  Monitor monitor({ground, prepareBody("ball", Box::fromSize({0.2, 0.2, 0.2}), kMillimetre)});
   const Isometry3d still = Isometry3d::Identity();
   EXPECT_EQ(monitor.check({{still, still}, {at(0, 0, 0.2), at(0, 0, 0.05)}}).verdict, Verdict::kContact);
 }
@@ -75,7 +75,7 @@ TEST(PrepareBody, RefusesPosesThatAreNone) {
   scaled.name = "scaled";
   Isometry3d X_BG = Isometry3d::Identity();
   X_BG.linear() *= 2.0;
-  scaled.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.1}}), X_BG, "box"});
+  scaled.geometry.push_back({Primitive(Box::fromSize({0.2, 0.2, 0.2})), X_BG, "box"});
   EXPECT_EQ(test::failureOf<std::invalid_argument>([&] { prepareBody(scaled, kMillimetre); }),
             "scaled: the pose of box's rotation is not orthonormal");
   scaled.geometry[0].X_BG.setIdentity();
@@ -94,8 +94,8 @@ TEST(PrepareBody, TwoWithoutAShellAreNotPassedOver) {
 }
 
 TEST(PrepareBody, PosesThatDoNotTellTheWayAreRefused) {
-  Monitor monitor({prepareBody("bar", Box{{0.1, 0.02, 0.02}}, kMillimetre),
-                   prepareBody("box", Box{{0.02, 0.02, 0.02}}, kMillimetre)});
+  Monitor monitor({prepareBody("bar", Box::fromSize({0.2, 0.04, 0.04}), kMillimetre),
+                   prepareBody("box", Box::fromSize({0.04, 0.04, 0.04}), kMillimetre)});
   const Isometry3d still = at(0, 1, 0), start = Isometry3d::Identity(),
                    half(Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitZ())),
                    less(Eigen::AngleAxisd(3.1, Vector3d::UnitZ()));
@@ -110,7 +110,7 @@ TEST(PrepareBody, SaysWhatIsWrong) {
   EXPECT_THROW(prepareBody("none", TriangleMesh{}, kMillimetre), std::invalid_argument);
   EXPECT_THROW(prepareBody("flat", Sphere{-1.0}, kMillimetre), std::invalid_argument);
   EXPECT_THROW(prepareBody("exact", Sphere{1.0}, {0.0, {}}), std::invalid_argument);
-  const Body ball = prepareBody("ball", Box{{0.1, 0.1, 0.1}}, kMillimetre);
+  const Body ball = prepareBody("ball", Box::fromSize({0.2, 0.2, 0.2}), kMillimetre);
   Body empty;
   empty.name = "empty";
   EXPECT_THROW(Monitor({ball, empty}), std::invalid_argument);
@@ -118,7 +118,7 @@ TEST(PrepareBody, SaysWhatIsWrong) {
   Monitor lost({ball, empty});
   EXPECT_EQ(lost.check({{at(0, 0, 0), at(0, 0, 0)}, {at(5, 0, 0), at(5, 0, 0)}}).verdict, Verdict::kNotChecked);
   EXPECT_THROW(Monitor({ball, ball}), std::invalid_argument);
-  Monitor monitor({ball, prepareBody("other", Box{{0.1, 0.1, 0.1}}, kMillimetre)});
+  Monitor monitor({ball, prepareBody("other", Box::fromSize({0.2, 0.2, 0.2}), kMillimetre)});
   EXPECT_THROW(monitor.check({}), std::invalid_argument);
   EXPECT_THROW(monitor.check({{at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0)}}), std::invalid_argument);
 }

@@ -44,7 +44,7 @@ TEST(Penalty, DepthInRoundBodiesIsExact) {
   const auto inCylinder = [](const Vector3d& p) { return std::min(0.5 - p.head<2>().norm(), 0.3 - std::abs(p.z())); };
   const auto inBall = [](const Vector3d& p) { return 0.5 - p.norm(); };
   const std::vector<std::pair<DistanceField, std::function<double(const Vector3d&)>>> bodies = {
-      {DistanceField(Cylinder{0.5, 0.3}), inCylinder}, {DistanceField(Sphere{0.5}), inBall}};
+      {DistanceField(Cylinder::fromRadiusAndLength(0.5, 0.6)), inCylinder}, {DistanceField(Sphere{0.5}), inBall}};
   Random random(12);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (const auto& [field, depthAt] : bodies) {
@@ -86,7 +86,7 @@ TEST(Penalty, WithoutImpulseOnlyDepthsAreFound) {
 
 TEST(Penalty, WithoutErrorsAllElseIsTheSame) {
   Random random(3);
-  for (const DistanceField& field : {curvedField(), DistanceField(Primitive(Box{{0.3, 0.2, 0.1}}))}) {
+  for (const DistanceField& field : {curvedField(), DistanceField(Primitive(Box::fromSize({0.6, 0.4, 0.2})))}) {
     const Isometry3d X_FP = pose(random, 3.0, 0.05), X_end = translation({0.01, -0.02, 0.01}) * X_FP;
     const ContactCase pressed{field, spiralSphere(0.15, 60), oneChord(1.0, X_FP, X_end)};
     for (const bool impulse : {false, true}) {
@@ -123,13 +123,13 @@ TEST(Penalty, DepthsOnTheFacesOfCellsHaveErrorsThatHold) {
     Vector3d face = uniformIn(random, {-half, half});
     face = shape.origin +
            shape.unit() * stride * ((face - shape.origin) / (shape.unit() * stride)).array().round().matrix();
-    if (signedDistance(Box{half}, face) > -1e-4) continue;
+    if (signedDistance(Box::fromSize(2.0 * half), face) > -1e-4) continue;
     const Vector3d beside = face + 0.003 * direction(random);
     const bool ends = random() % 2;
     const ContactCase moving{field, onePoint(Vector3d::Zero(), Vector3d::UnitZ()),
                              oneChord(1.0, translation(ends ? beside : face), translation(ends ? face : beside))};
     for (const HitDepth& found : moving.run(perArea()).depths) {
-      const double truth = -signedDistance(Box{half}, found.p_F);
+      const double truth = -signedDistance(Box::fromSize(2.0 * half), found.p_F);
       EXPECT_LE(std::abs(found.depth - truth), found.error + 1e-12) << face.transpose();
       jumps += std::abs(found.depth - truth) > field.sample(found.p_F).error;
     }

@@ -39,7 +39,7 @@ TEST(Penalty, ExactRuleIntegratesTheInterpolatedField) {
 /// Inside a box the direction to the nearest face changes at once: where it does, that of a sampled field turns by up
 /// to a right angle within one cell.
 TEST(Penalty, ExactRuleFollowsNormalsThatTurnWithinACell) {
-  const Primitive box = Box{{0.35, 0.33, 0.31}};
+  const Primitive box = Box::fromSize({0.7, 0.66, 0.62});
   const auto inBox =
       sampledFunction([&](const Vector3d& p) { return signedDistance(box, p); }, Vector3i::Ones(), 0.1, 1.0);
   ContactOptions exact = perArea(), twenty = perArea(), dense = perArea();
@@ -83,10 +83,11 @@ TEST(Penalty, ExactRuleIsRightDeepInRoundBodies) {
     DistanceField field;
     std::function<Outward(const Vector3d&)> at;
   };
-  const std::vector<Round> bodies = {
-      {DistanceField(Cylinder{0.5, 0.3}), [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.3); }},
-      {DistanceField(Cylinder{0.5, 0.05}), [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.05); }},
-      {DistanceField(Sphere{0.5}), [&](const Vector3d& p) { return inBall(p, 0.5); }}};
+  const std::vector<Round> bodies = {{DistanceField(Cylinder::fromRadiusAndLength(0.5, 0.6)),
+                                      [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.3); }},
+                                     {DistanceField(Cylinder::fromRadiusAndLength(0.5, 0.1)),
+                                      [&](const Vector3d& p) { return inCylinder(p, 0.5, 0.05); }},
+                                     {DistanceField(Sphere{0.5}), [&](const Vector3d& p) { return inBall(p, 0.5); }}};
   Random random(8);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
   for (const Round& body : bodies) {

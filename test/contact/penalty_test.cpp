@@ -83,7 +83,7 @@ TEST(Penalty, PartOfACycleCountsForThatPart) {
 
 TEST(Penalty, HundredMetresPerSecondThroughOneMillimetre) {
   const double v = 100.0, thickness = 1e-3, T = 0.01;
-  const DistanceField plate(Box{{0.2, 0.2, thickness / 2.0}});
+  const DistanceField plate(Box::fromSize({0.4, 0.4, thickness}));
   const Vector3d velocity(0, 0, -v);
   const ContactCase passing{plate, onePoint({0.01, 0.02, 0.0}, -Vector3d::UnitZ()),
                             oneChord(T, translation({0, 0, 0.43}), translation(Vector3d(0, 0, 0.43) + T * velocity))};
@@ -108,7 +108,7 @@ TEST(Penalty, FrameOfIntegrationOnlyTurnsTheWrench) {
   options.damping = 1e4;
   for (int i = 0; i < 20; ++i) {
     const Isometry3d turn = pose(random, 3.0, 1.0), X_CF0 = pose(random, 3.0, 1.0), X_CF1 = pose(random, 3.0, 1.0);
-    ContactCase moving{DistanceField(Box{{0.3, 0.2, 0.1}}),
+    ContactCase moving{DistanceField(Box::fromSize({0.6, 0.4, 0.2})),
                        spiralSphere(0.2, 300),
                        oneChord(0.3, pose({0.4, 0, 0.1}, 0.3, {1, 2, 3}), pose({0.2, 0.1, 0.1}, 0.9, {1, 2, 3})),
                        {X_CF0, X_CF1}};
@@ -123,7 +123,7 @@ TEST(Penalty, FrameOfIntegrationOnlyTurnsTheWrench) {
 
 TEST(Penalty, FrameOfTheShellDoesNotMatter) {
   Random random(5);
-  ContactCase moving{DistanceField(Box{{0.3, 0.2, 0.1}}), spiralSphere(0.2, 300),
+  ContactCase moving{DistanceField(Box::fromSize({0.6, 0.4, 0.2})), spiralSphere(0.2, 300),
                      oneChord(0.3, translation({0.4, 0, 0.1}), translation({0.2, 0.1, 0.1}))};
   const Wrench before = moving.run(perArea()).on_shell_body;
   const Isometry3d X_PQ = pose(random, 3.0, 1.0);
@@ -180,7 +180,8 @@ TEST(Penalty, DampingSeesRelativeMotionOnly) {
 TEST(Penalty, OverlappingPartsOfABodyCountOnce) {
   // Two overlapping boxes of one body and a face that is pressed into both: the result is that of their union, a box.
   const double top = 0.1;
-  const DistanceField left(Box{{0.3, 0.3, top}}), right(Box{{0.3, 0.3, top}}), both(Box{{0.4, 0.3, top}});
+  const DistanceField left(Box::fromSize({0.6, 0.6, 2.0 * top})), right(Box::fromSize({0.6, 0.6, 2.0 * top})),
+      both(Box::fromSize({0.8, 0.6, 2.0 * top}));
   const Isometry3d X_BL = translation({-0.1, 0, 0}), X_BR = translation({0.1, 0, 0});
   const PointShell face = bottomFace(0.05, 20);
   // Deeper than the distance to the boxes' end faces, so that ownership decides.
@@ -209,7 +210,7 @@ TEST(Penalty, OverlappingPartsOfABodyCountOnce) {
 
 TEST(Penalty, OwnershipChangesInTheMiddleOfAPath) {
   // A point slides from one box's half of the overlap to the other's, deep inside: the deeper box owns the contact.
-  const DistanceField left(Box{{0.3, 0.3, 0.3}}), right(Box{{0.3, 0.3, 0.3}});
+  const DistanceField left(Box::fromSize({0.6, 0.6, 0.6})), right(Box::fromSize({0.6, 0.6, 0.6}));
   const Isometry3d X_LR = translation({0.2, 0, 0}), X_RL = X_LR.inverse();
   const Isometry3d from = translation({-0.05, 0, 0}), to = translation({0.25, 0, 0});
   const PointShell point = onePoint(Vector3d::Zero(), -Vector3d::UnitX());

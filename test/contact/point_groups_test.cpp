@@ -29,7 +29,8 @@ const Inside kGround{HalfSpace{Vector3d::UnitZ(), 0.0}, [](const Vector3d& p) { 
                      [](const Vector3d&) { return Vector3d(Vector3d::UnitZ()); }};
 const Inside kBall{Sphere{kRadius}, [](const Vector3d& p) { return kRadius - p.norm(); },
                    [](const Vector3d& p) { return Vector3d(p.normalized()); }};
-const Inside kRoom{Box{Vector3d::Constant(kHalf)}, [](const Vector3d& p) { return kHalf - p.cwiseAbs().maxCoeff(); },
+const Inside kRoom{Box::fromSize(Vector3d::Constant(2.0 * kHalf)),
+                   [](const Vector3d& p) { return kHalf - p.cwiseAbs().maxCoeff(); },
                    [](const Vector3d& p) {
                      int axis;
                      p.cwiseAbs().maxCoeff(&axis);
@@ -82,7 +83,7 @@ struct DeepCase {
   std::vector<ShellHit> points;
 };
 
-const Primitive kLink = Box{{0.05, 0.08, 0.3}};
+const Primitive kLink = Box::fromSize({0.1, 0.16, 0.6});
 
 Isometry3d deepPose(Random& random, double depth) {
   Isometry3d X = pose(random, kPi, 0.3);

@@ -18,8 +18,9 @@ std::vector<DistanceField> fields() {
   uniform.cells = 40;
   adaptive.max_error = 0.002;
   adaptive.cells.reset();
-  return {DistanceField(Primitive(Box{kHalf})), DistanceField(Primitive(HalfSpace{Vector3d(0.6, 0.0, 0.8), 0.05})),
-          buildField(boxMesh(kHalf), uniform), buildField(boxMesh(kHalf), adaptive)};
+  return {DistanceField(Primitive(Box::fromSize(2.0 * kHalf))),
+          DistanceField(Primitive(HalfSpace{Vector3d(0.6, 0.0, 0.8), 0.05})), buildField(boxMesh(kHalf), uniform),
+          buildField(boxMesh(kHalf), adaptive)};
 }
 
 /// The field's own values and gradients along the piece.
@@ -86,7 +87,7 @@ TEST(SmoothPiece, IsNotMoreThanOne) {
     SmoothPiece piece;
     return SmoothPieceReader(field, cells).readWay(from, to, piece);
   };
-  const DistanceField box(Primitive(Box{kHalf}));
+  const DistanceField box(Primitive(Box::fromSize(2.0 * kHalf)));
   EXPECT_TRUE(isSmooth(box, {0.0, 0.0, 0.09}, {0.1, 0.0, 0.09}));
   EXPECT_FALSE(isSmooth(box, {0.0, 0.0, 0.09}, {0.0, 0.0, -0.09}));
   EXPECT_FALSE(isSmooth(box, {0.0, 0.0, 0.09}, {0.295, 0.0, 0.09}));

@@ -76,7 +76,7 @@ TEST(Integrator, SphereOnABoxOfFewPointsRestsAtItsAnalyticDepth) {
   // No point of the box is near the contact: with equal weights it would be half as stiff.
   const double R = 0.1, k = 1e8;
   const RigidBody ball = primitiveBody("ball", Sphere{R}, 1000.0, 0.002);
-  RigidBody table = primitiveBody("table", Box{{0.5, 0.5, 0.1}}, 1000.0, 0.08);
+  RigidBody table = primitiveBody("table", Box::fromSize({1.0, 1.0, 0.2}), 1000.0, 0.08);
   table.fixed = true;
   RigidWorld world;
   world.bodies = {table, ball};
@@ -110,7 +110,7 @@ Simulation collision(Scheme scheme, double step) {
   world.contact.stiffness = 1e8;
   world.contact.damping = 1e4;
   world.bodies = {meshBody("torus", torusMesh(0.1, 0.04, 48, 24), 1000.0, 32, 0.01),
-                  primitiveBody("box", Box{{0.05, 0.08, 0.03}}, 500.0, 0.01)};
+                  primitiveBody("box", Box::fromSize({0.1, 0.16, 0.06}), 500.0, 0.01)};
   return Simulation(world, {at({0, 0, 0}, {0.5, 0, 0}, {1, 2, 3}), at({0.23, 0.05, 0.02}, {-1, 0, 0}, {0, 5, 1})},
                     scheme, step);
 }
@@ -145,7 +145,7 @@ double depthInCube(double half_size, const Vector3d& p) {
 
 TEST(Integrator, ImplicitLetsNoBallThroughACubeWhereverItWouldLeave) {
   const double half_size = 0.05, step = 0.01;
-  RigidBody cube = primitiveBody("cube", Box{Vector3d::Constant(half_size)}, 1000.0, 0.02);
+  RigidBody cube = primitiveBody("cube", Box::fromSize(Vector3d::Constant(2.0 * half_size)), 1000.0, 0.02);
   cube.fixed = true;
   RigidWorld world;
   world.gravity.setZero();
@@ -170,7 +170,8 @@ TEST(Integrator, ImplicitLetsNoBallThroughACubeWhereverItWouldLeave) {
 }
 
 TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
-  RigidBody cube = primitiveBody("cube", Box{Vector3d::Constant(0.05)}, 1000.0, 0.02), rod = pointBody("rod", 1.0);
+  RigidBody cube = primitiveBody("cube", Box::fromSize(Vector3d::Constant(0.1)), 1000.0, 0.02),
+            rod = pointBody("rod", 1.0);
   cube.fixed = true;
   PointShell ends;
   ends.add({0, 0, 0}, -Vector3d::UnitZ(), 1.0F);
@@ -192,7 +193,7 @@ TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
 Simulation fallingBox(double far_energy) {
   RigidWorld world;
   world.contact.stiffness = 1e10;
-  world.bodies = {groundBody(), primitiveBody("box", Box{{0.05, 0.04, 0.03}}, 1000.0, 0.02)};
+  world.bodies = {groundBody(), primitiveBody("box", Box::fromSize({0.1, 0.08, 0.06}), 1000.0, 0.02)};
   std::vector<BodyState> states = {at(Vector3d::Zero()), at({0, 0, 0.1})};
   states[1].X_OB.linear() = Eigen::AngleAxisd(0.5, Vector3d(1, 2, 0.3).normalized()).toRotationMatrix();
   if (far_energy > 0.0) {
@@ -219,7 +220,7 @@ TEST(Integrator, ImplicitSolvesEveryBodyAsIfItWereAlone) {
 }
 
 TEST(Integrator, ImplicitRecordsTheContactsAtTheEndOfTheStep) {
-  const RigidBody box = primitiveBody("box", Box{{0.05, 0.04, 0.03}}, 1000.0, 0.02);
+  const RigidBody box = primitiveBody("box", Box::fromSize({0.1, 0.08, 0.06}), 1000.0, 0.02);
   Simulation simulation = fallingBox(1e12);
   int contacts = 0;
   for (int i = 0; i < 200; ++i) {
@@ -244,7 +245,7 @@ TEST(Integrator, ImplicitRestsInStiffContactWithoutHalvingSteps) {
     world.bodies = {groundBody()};
     std::vector<BodyState> states = {at(Vector3d::Zero())};
     for (int i = 0; i < 3; ++i) {
-      world.bodies.push_back(primitiveBody("box", Box{{0.05, 0.05, 0.05}}, 1000.0, 0.02));
+      world.bodies.push_back(primitiveBody("box", Box::fromSize({0.1, 0.1, 0.1}), 1000.0, 0.02));
       states.push_back(at({0, 0, 0.05 + 0.1 * i}));
     }
     Simulation simulation(world, states, Scheme::kImplicit, 1e-3);
@@ -260,7 +261,7 @@ TEST(Integrator, ImplicitRestsInStiffContactWithoutHalvingSteps) {
 TEST(Integrator, ImplicitKeepsMomentumInStiffContactOfUnequalMasses) {
   for (const double ratio : {1.0, 1e-3, 1e-6}) {
     for (const double stiffness : {1e6, 1e9, 1e12}) {
-      RigidBody box = primitiveBody("box", Box{{0.05, 0.05, 0.05}}, 1000.0, 0.02),
+      RigidBody box = primitiveBody("box", Box::fromSize({0.1, 0.1, 0.1}), 1000.0, 0.02),
                 ball = primitiveBody("ball", Sphere{0.05}, 1000.0 * ratio, 0.02);
       RigidWorld world;
       world.gravity.setZero();

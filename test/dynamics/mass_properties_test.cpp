@@ -13,7 +13,7 @@ using namespace test;
 
 TEST(MassProperties, BoxMeshEqualsClosedForm) {
   const Vector3d half(0.3, 0.2, 0.1);
-  const MassProperties exact = massProperties(Primitive(Box{half}), 700.0);
+  const MassProperties exact = massProperties(Primitive(Box::fromSize(2.0 * half)), 700.0);
   const MassProperties mesh = massProperties(boxMesh(half), 700.0);
   EXPECT_NEAR(mesh.mass, exact.mass, 1e-12 * exact.mass);
   EXPECT_NEAR(exact.mass, 700.0 * 0.6 * 0.4 * 0.2, 1e-12);
@@ -25,7 +25,7 @@ TEST(MassProperties, BoxMeshEqualsClosedForm) {
 TEST(MassProperties, RotatedAndMovedMeshGivesTheRotatedTensor) {
   Random random(3);
   const Vector3d half(0.05, 0.2, 0.1);
-  const MassProperties exact = massProperties(Primitive(Box{half}), 1.0);
+  const MassProperties exact = massProperties(Primitive(Box::fromSize(2.0 * half)), 1.0);
   for (int i = 0; i < 20; ++i) {
     const Isometry3d X = pose(random, 3.0, 50.0);
     const MassProperties moved = massProperties(transformed(boxMesh(half), X), 1.0);
@@ -50,7 +50,7 @@ TEST(MassProperties, FineMeshesApproachCurvedPrimitives) {
   const MassProperties ball_mesh = massProperties(tessellate(Primitive(Sphere{0.1}), 1e-6), 1000.0);
   EXPECT_NEAR(ball_mesh.mass, ball.mass, 1e-4 * ball.mass);
   EXPECT_LT((ball_mesh.inertia - ball.inertia).norm(), 2e-4 * ball.inertia.norm());
-  const Primitive can = Cylinder{0.05, 0.2};
+  const Primitive can = Cylinder::fromRadiusAndLength(0.05, 0.4);
   const MassProperties cylinder = massProperties(can, 1000.0);
   const MassProperties cylinder_mesh = massProperties(tessellate(can, 1e-6), 1000.0);
   EXPECT_LT((cylinder_mesh.inertia - cylinder.inertia).norm(), 2e-4 * cylinder.inertia.norm());

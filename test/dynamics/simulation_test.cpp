@@ -12,7 +12,7 @@ using namespace test;
 
 RigidWorld boxOnGround(double stiffness, double damping) {
   RigidWorld world;
-  world.bodies = {groundBody(), primitiveBody("box", Box{{0.05, 0.04, 0.03}}, 1000.0, 0.02)};
+  world.bodies = {groundBody(), primitiveBody("box", Box::fromSize({0.1, 0.08, 0.06}), 1000.0, 0.02)};
   world.contact.stiffness = stiffness;
   world.contact.damping = damping;
   return world;

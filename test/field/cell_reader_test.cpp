@@ -17,8 +17,8 @@ TEST(CellReader, SaysBitByBitWhatTheFieldSays) {
   uniform.cells = 40;
   adaptive.max_error = 0.002;
   adaptive.cells.reset();
-  for (const DistanceField& field :
-       {DistanceField(Primitive(Box{half})), buildField(boxMesh(half), uniform), buildField(boxMesh(half), adaptive)}) {
+  for (const DistanceField& field : {DistanceField(Primitive(Box::fromSize(2.0 * half))),
+                                     buildField(boxMesh(half), uniform), buildField(boxMesh(half), adaptive)}) {
     CellReader reader(field);
     Random random(1);
     Vector3d p = Vector3d::Zero();

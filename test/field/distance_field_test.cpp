@@ -52,7 +52,8 @@ TEST(DistanceField, SamplesAreExactAtGridPointsToTheirRounding) {
   forEachSampled(grid, [&](const Vector3i& b, std::int32_t slot) {
     for (const Vector3i& place : {Vector3i(3, 5, 1), Vector3i(8, 0, 8), Vector3i(7, 8, 4)}) {
       const Vector3d p = shape.origin + shape.cell * (8 * b + place).cast<double>();
-      const double error = std::abs(grid.sample(slot, place) - signedDistance(Primitive(Box{kHalf}), p));
+      const double error =
+          std::abs(grid.sample(slot, place) - signedDistance(Primitive(Box::fromSize(2.0 * kHalf)), p));
       ASSERT_LE(error, grid.rounding() + 1e-7);
       worst = std::max(worst, error);
       ++seen;
@@ -133,7 +134,7 @@ TEST(DistanceField, SamplesAroundAPlaceBoundItsErrorOnScansAndLinks) {
 
 TEST(DistanceField, ErrorBoundHoldsEverywhereAndIsReached) {
   const DistanceField field = boxField(40);
-  const Primitive exact = Box{kHalf};
+  const Primitive exact = Box::fromSize(2.0 * kHalf);
   Random random(1);
   double worst = 0.0, worst_share = 0.0;
   int in_band = 0, outside = 0;
@@ -219,7 +220,7 @@ TEST(DistanceField, BandIsAsWideAsAsked) {
   options.band = 0.07;
   const DistanceField field = buildField(test::boxMesh(kHalf), options);
   EXPECT_EQ(field.band(), 0.07);
-  const Primitive exact = Box{kHalf};
+  const Primitive exact = Box::fromSize(2.0 * kHalf);
   Random random(4);
   for (int i = 0; i < 20000; ++i) {
     const Vector3d p = test::uniformIn(random, {-1.5 * kHalf, 1.5 * kHalf});

@@ -31,7 +31,7 @@ TEST(EmptySphere, WordsHoldEveryBall) {
 const Vector3d kHalf(0.3, 0.2, 0.1);
 
 double boxDistance(const Vector3d& p) {
-  return signedDistance(Primitive(Box{kHalf}), p);
+  return signedDistance(Primitive(Box::fromSize(2.0 * kHalf)), p);
 }
 
 /// Compares the empty spheres of a box's grid with the exact distance.

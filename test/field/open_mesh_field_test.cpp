@@ -27,7 +27,7 @@ std::vector<FieldOptions> bothKinds(double max_error, int cells) {
 }
 
 double boxDistance(const Vector3d& p) {
-  return signedDistance(Box{Vector3d::Constant(kHalf)}, p);
+  return signedDistance(Box::fromSize(Vector3d::Constant(2.0 * kHalf)), p);
 }
 
 /// With the sign of the winding number alone, which jumps where that is one half, it had 652,022 leaves at 8 mm.

@@ -37,7 +37,7 @@ TriangleMesh moved(TriangleMesh mesh, const Vector3d& by) {
 
 /// A ball with a cavity, in which a cube floats beside a cube that is inside out; far from the origin.
 TriangleMesh nested() {
-  const TriangleMesh cube = tessellate(Box{{0.02, 0.02, 0.02}}, 1.0);
+  const TriangleMesh cube = tessellate(Box::fromSize({0.04, 0.04, 0.04}), 1.0);
   const TriangleMesh hollow = merged(icosphere(0.2, 2), insideOut(icosphere(0.15, 2)));
   const TriangleMesh cubes = merged(moved(cube, {0.05, 0, 0}), insideOut(moved(cube, {-0.05, 0.001, 0})));
   return moved(merged(hollow, cubes), {3, -2, 1});
@@ -86,7 +86,7 @@ TEST(BoxTreeRay, SliversAreToldRightOrNotAtAll) {
   int unknown = 0;
   for (int i = 0; i < 300; ++i) {
     const double thin = std::pow(10.0, uniform(random, -8, 0));
-    TriangleMesh mesh = tessellate(Cylinder{0.1, 0.5}, 1e-4);
+    TriangleMesh mesh = tessellate(Cylinder::fromRadiusAndLength(0.1, 1.0), 1e-4);
     for (Vector3d& p : mesh.vertices) p.x() *= thin;
     mesh.triangles.emplace_back(0, 1, 1);
     const Isometry3d X = pose(random, M_PI, 1.0);

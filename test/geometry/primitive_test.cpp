@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
@@ -11,14 +12,29 @@
 
 namespace sdf_ccd::primitive_test {
 
-const std::vector<Primitive> kSolids = {Sphere{0.5}, Box{{0.2, 0.3, 0.7}}, Cylinder{0.3, 0.6}, Cylinder{0.6, 0.1}};
+const std::vector<Primitive> kSolids = {Sphere{0.5}, Box::fromSize({0.4, 0.6, 1.4}),
+                                        Cylinder::fromRadiusAndLength(0.3, 1.2),
+                                        Cylinder::fromRadiusAndLength(0.6, 0.2)};
+
+// Half sizes in braces, as they were, do not compile.
+static_assert(!std::is_aggregate_v<Box> && !std::is_constructible_v<Box, Vector3d>);
+static_assert(!std::is_aggregate_v<Cylinder> && !std::is_constructible_v<Cylinder, double, double>);
+
+TEST(Primitive, SizesAreFull) {
+  const Box box = Box::fromSize({2, 4, 6});
+  EXPECT_EQ(box.size, Vector3d(2, 4, 6));
+  EXPECT_EQ(boundingBox(box).max(), Vector3d(1, 2, 3));
+  const Cylinder cylinder = Cylinder::fromRadiusAndLength(1, 4);
+  EXPECT_EQ(cylinder.length, 4);
+  EXPECT_EQ(boundingBox(cylinder).max(), Vector3d(1, 1, 2));
+}
 
 TEST(Primitive, ClosedForms) {
   EXPECT_DOUBLE_EQ(signedDistance(Sphere{2}, {0, 3, 4}), 3);
-  EXPECT_DOUBLE_EQ(signedDistance(Box{{1, 2, 3}}, {4, 6, 3}), 5);
-  EXPECT_DOUBLE_EQ(signedDistance(Box{{1, 2, 3}}, {0, 0, 0}), -1);
-  EXPECT_DOUBLE_EQ(signedDistance(Cylinder{1, 2}, {4, 0, 6}), 5);
-  EXPECT_DOUBLE_EQ(signedDistance(Cylinder{1, 2}, {0.25, 0, 1.5}), -0.5);
+  EXPECT_DOUBLE_EQ(signedDistance(Box::fromSize({2, 4, 6}), {4, 6, 3}), 5);
+  EXPECT_DOUBLE_EQ(signedDistance(Box::fromSize({2, 4, 6}), {0, 0, 0}), -1);
+  EXPECT_DOUBLE_EQ(signedDistance(Cylinder::fromRadiusAndLength(1, 4), {4, 0, 6}), 5);
+  EXPECT_DOUBLE_EQ(signedDistance(Cylinder::fromRadiusAndLength(1, 4), {0.25, 0, 1.5}), -0.5);
   EXPECT_DOUBLE_EQ(signedDistance(HalfSpace{{0, 0, 1}, 0.5}, {7, 8, 2}), 1.5);
 }
 
@@ -88,12 +104,13 @@ TEST(Primitive, TessellationIsClosedOnTheSurfaceAndAsFineAsAsked) {
 
 TEST(Primitive, BadSizesAreNamed) {
   EXPECT_THROW(validate(Primitive(Sphere{0})), std::invalid_argument);
-  EXPECT_THROW(validate(Primitive(Box{{1, -1, 1}})), std::invalid_argument);
-  EXPECT_THROW(validate(Primitive(Cylinder{1, std::numeric_limits<double>::infinity()})), std::invalid_argument);
+  EXPECT_THROW(validate(Primitive(Box::fromSize({2, -2, 2}))), std::invalid_argument);
+  EXPECT_THROW(validate(Primitive(Cylinder::fromRadiusAndLength(1, 2.0 * std::numeric_limits<double>::infinity()))),
+               std::invalid_argument);
   EXPECT_THROW(validate(Primitive(HalfSpace{{0, 0, 2}, 0})), std::invalid_argument);
   EXPECT_THROW(tessellate(HalfSpace{{0, 0, 1}, 0}, 0.1), std::invalid_argument);
   EXPECT_THROW(tessellate(Sphere{1}, 0), std::invalid_argument);
-  EXPECT_THROW(tessellate(Cylinder{1, 1}, 1e-300), std::length_error);
+  EXPECT_THROW(tessellate(Cylinder::fromRadiusAndLength(1, 2), 1e-300), std::length_error);
   EXPECT_NO_THROW(validate(Primitive(HalfSpace{{0, 0, -1}, 3})));
 }
 

@@ -10,7 +10,7 @@ using namespace test;
 
 TEST(Allocation, NoneWhilePairsAreClear) {
   const auto scene = build({body("ground", ground(), true), body("a", Primitive(Sphere{0.1})),
-                            body("b", Primitive(Box{{0.1, 0.1, 0.1}})), body("c", Primitive(Sphere{0.1}))});
+                            body("b", Primitive(Box::fromSize({0.2, 0.2, 0.2}))), body("c", Primitive(Sphere{0.1}))});
   Monitor monitor(scene, {});
   std::vector<CycleMotion> motions;
   for (int i = 0; i < 20; ++i) {
@@ -35,7 +35,7 @@ TEST(Allocation, NoneWhilePairsAreClear) {
 
 TEST(Allocation, NoneForAContactLikeTheLast) {
   const auto scene = build({body("ground", ground(), true), body("ball", Primitive(Sphere{0.1})),
-                            body("box", Primitive(Box{{0.1, 0.1, 0.1}}))});
+                            body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))});
   Monitor monitor(scene, {});
   const CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()),
                                          still(translation({0, 0, 0.095})),
@@ -104,7 +104,8 @@ TEST(Allocation, DoesNotGrowWithTheNumberOfPairs) {
 
 /// Two links among many objects: adopt() neither allocates nor frees.
 TEST(Allocation, NoneWhileAChangeIsTakenOver) {
-  SceneDescription description{{body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))}, {}};
+  SceneDescription description{
+      {body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box::fromSize({0.2, 0.2, 0.2})))}, {}};
   for (int i = 0; i < 300; ++i) {
     description.bodies.push_back(body("o" + std::to_string(i), Primitive(Sphere{0.05}), true));
     description.bodies.back().X_frame_B = translation({0.3 * i, 0, 0});

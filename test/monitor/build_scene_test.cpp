@@ -15,7 +15,7 @@ namespace sdf_ccd::build_scene_test {
 using namespace test;
 
 TEST(BuildScene, PrimitivesHaveExactFields) {
-  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box{{0.1, 0.1, 0.1}}))});
+  const auto scene = build({body("a", Primitive(Sphere{0.1})), body("b", Primitive(Box::fromSize({0.2, 0.2, 0.2})))});
   for (const Body& body : scene->bodies) {
     ASSERT_EQ(body.parts.size(), 1u);
     EXPECT_NE(body.parts[0].field.primitive(), nullptr);
@@ -159,10 +159,10 @@ TEST(BuildScene, PairsOfABodyThatFailedAreNeverDue) {
 TEST(BuildScene, UnionShellStillCoversTheUnion) {
   // A long box through a ball: points deep inside the other part are dropped, and the union's surface stays covered.
   BodyDescription cross = body("cross", Primitive(Sphere{0.1}));
-  cross.geometry.push_back({Primitive(Box{{0.3, 0.03, 0.03}}), translation({0.02, 0.01, 0}), "box", false});
+  cross.geometry.push_back({Primitive(Box::fromSize({0.6, 0.06, 0.06})), translation({0.02, 0.01, 0}), "box", false});
   const auto scene = build({cross, body("other", Primitive(Sphere{0.1}))}, fine(0.01));
   const Body& body = scene->bodies[0];
-  const Primitive ball = Sphere{0.1}, box = Box{{0.3, 0.03, 0.03}};
+  const Primitive ball = Sphere{0.1}, box = Box::fromSize({0.6, 0.06, 0.06});
   const Isometry3d X_GB = cross.geometry[1].X_BG.inverse();
   const auto inUnion = [&](const Vector3d& p) {
     return std::min(signedDistance(ball, p), signedDistance(box, X_GB * p));

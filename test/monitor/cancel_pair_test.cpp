@@ -47,8 +47,9 @@ TEST(CancelPair, EndsSoonWhereItIsNearAllTheTime) {
 }
 
 TEST(CancelPair, EndsSoonAtPrimitives) {
-  expectPairEndsSoon(build({body("a", Box{{0.3, 0.3, 0.3}}), body("b", meshShape(icosphere(0.2, 4)))}, fine(0.008)),
-                     shaken(0.2, 2));
+  expectPairEndsSoon(
+      build({body("a", Box::fromSize({0.6, 0.6, 0.6})), body("b", meshShape(icosphere(0.2, 4)))}, fine(0.008)),
+      shaken(0.2, 2));
 }
 
 TEST(CancelPair, EndsSoonAtOpenMeshes) {

@@ -40,8 +40,9 @@ class Wanderers {
 };
 
 std::vector<BodyDescription> mixedBodies() {
-  return {body("box", Primitive(Box{{0.1, 0.05, 0.15}})), body("ball", Primitive(Sphere{0.08})),
-          body("can", Primitive(Cylinder{0.05, 0.1})), body("slab", Primitive(Box{{0.2, 0.2, 0.01}}))};
+  return {body("box", Primitive(Box::fromSize({0.2, 0.1, 0.3}))), body("ball", Primitive(Sphere{0.08})),
+          body("can", Primitive(Cylinder::fromRadiusAndLength(0.05, 0.2))),
+          body("slab", Primitive(Box::fromSize({0.4, 0.4, 0.02})))};
 }
 
 TEST(ClearanceSkip, GivesTheVerdictsOfTesting) {
@@ -71,7 +72,7 @@ TEST(ClearanceSkip, GivesTheVerdictsOfTesting) {
 TEST(ClearanceSkip, SkippedClearIsNeverWrong) {
   // Ball against box, where the distance is known; the reported clearance must hold too.
   const double radius = 0.08;
-  const Primitive box = Box{{0.1, 0.05, 0.15}};
+  const Primitive box = Box::fromSize({0.2, 0.1, 0.3});
   const auto scene = build({body("box", box), body("ball", Primitive(Sphere{radius}))}, fine(0.02));
   Monitor monitor(scene, {});
   int skipped = 0;

@@ -44,8 +44,10 @@ struct Landing {
 };
 
 std::vector<Landing> landings() {
-  const Shape slab_mesh = meshShape(boxMesh({0.3, 0.3, kTop})), slab_box = Primitive(Box{{0.3, 0.3, kTop}});
-  const Shape cube_mesh = meshShape(boxMesh({kHalf, kHalf, kHalf})), cube_box = Primitive(Box{{kHalf, kHalf, kHalf}});
+  const Shape slab_mesh = meshShape(boxMesh({0.3, 0.3, kTop})),
+              slab_box = Primitive(Box::fromSize({0.6, 0.6, 2.0 * kTop}));
+  const Shape cube_mesh = meshShape(boxMesh({kHalf, kHalf, kHalf})),
+              cube_box = Primitive(Box::fromSize({2.0 * kHalf, 2.0 * kHalf, 2.0 * kHalf}));
   return {{slab_mesh, cube_mesh, false},
           {slab_mesh, cube_mesh, true},
           {slab_box, cube_mesh, false},
@@ -56,7 +58,8 @@ std::vector<Landing> landings() {
 /// The edge of a board, which needs no shell against small bodies, is deep inside a ball.
 TEST(ContactRefinement, ALargeBodysSurfaceIsSearchedForInsideASmallOne) {
   const SceneDescription description{
-      {body("board", Primitive(Box{{0.4, 0.15, 0.009}}), true), body("ball", meshShape(icosphere(0.05, 4)))}, {}};
+      {body("board", Primitive(Box::fromSize({0.8, 0.3, 0.018})), true), body("ball", meshShape(icosphere(0.05, 4)))},
+      {}};
   const BodyOptions options = usual();
   const CycleMotion motion =
       cycle(0.1, {still(Isometry3d::Identity()), {translation({0.0131, 0.21, 0.0}), translation({0.0131, 0.17, 0.0})}});
@@ -252,7 +255,8 @@ TEST(ContactRefinement, OnlyWhereItIsAskedForAndPossible) {
 
 TEST(ContactRefinement, OfRoundBodiesToo) {
   const auto scene =
-      build({body("ball", Primitive(Sphere{0.03})), body("post", Primitive(Cylinder{0.02, 0.1}))}, coarse());
+      build({body("ball", Primitive(Sphere{0.03})), body("post", Primitive(Cylinder::fromRadiusAndLength(0.02, 0.2)))},
+            coarse());
   Monitor monitor(scene, soft());
   const auto at = [](double depth) { return translation({0.05 - depth, 0, 0}); };
   const PairResult& pair =
@@ -276,7 +280,8 @@ TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
                                                                      {0.05, 0.005, 0.0, 0.045},
                                                                      {0.2, 0.02, 0.0, 0.18},
                                                                      {0.03, 0.1, 0.02, 0.1}}) {
-    const std::vector<Shape> boards = {Primitive(Box{{0.5, 0.5, half}}), meshShape(boxMesh({0.5, 0.5, half}))};
+    const std::vector<Shape> boards = {Primitive(Box::fromSize({1.0, 1.0, 2.0 * half})),
+                                       meshShape(boxMesh({0.5, 0.5, half}))};
     for (const Shape& board : boards) {
       Monitor monitor(build({body("board", board), body("ball", Primitive(Sphere{radius}))}, coarse()), soft());
       const auto poses = still(translation({0.1, 0.05, beside}));
@@ -290,9 +295,9 @@ TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
 }
 
 TEST(ContactRefinement, BoundsOnlyTheContactWithTheDeepestPoint) {
-  BodyDescription posts = body("posts", Primitive(Box{{0.03, 0.03, 0.1}}));
-  posts.geometry.push_back({Primitive(Box{{0.03, 0.03, 0.1}}), translation({0.3, 0, 0}), "second"});
-  const auto scene = build({posts, body("tool", Primitive(Box{{0.02, 0.02, 0.02}}))}, usual());
+  BodyDescription posts = body("posts", Primitive(Box::fromSize({0.06, 0.06, 0.2})));
+  posts.geometry.push_back({Primitive(Box::fromSize({0.06, 0.06, 0.2})), translation({0.3, 0, 0}), "second"});
+  const auto scene = build({posts, body("tool", Primitive(Box::fromSize({0.04, 0.04, 0.04})))}, usual());
   Monitor monitor(scene, {});
   const CycleMotion motion =
       cycle(1.0, {still(Isometry3d::Identity()), {translation({-0.1, 0.048, 0}), translation({0.4, 0.028, 0})}});

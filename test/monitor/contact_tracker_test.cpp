@@ -139,7 +139,8 @@ TEST_F(TrackerTest, WhetherAContactIsSureFollowsFromItsOwnPoints) {
 /// Within one cycle a ball dips into a block by 20, 30 and 20 mm: all of the deepest points are of the second dip.
 TEST(ContactTracker, EachContactOfACycleHasItsOwnDepth) {
   const auto scene =
-      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.5, 0.5, 0.1}}), true)}, fine(0.01));
+      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box::fromSize({1.0, 1.0, 0.2})), true)},
+            fine(0.01));
   std::vector<Isometry3d> ball;
   for (const double depth : {-0.05, 0.02, -0.05, 0.03, -0.05, 0.02, -0.05})
     ball.push_back(translation({0, 0, 0.2 - depth}));

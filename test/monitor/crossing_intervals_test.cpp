@@ -17,7 +17,7 @@ class CrossedRods : public ::testing::Test {
 
   /// @param cells  of the fields; points are centimetres apart.
   static std::shared_ptr<const Scene> rods(int cells = 16) {
-    const Primitive rod = Box{{0.2, kHalf, kHalf}};
+    const Primitive rod = Box::fromSize({0.4, 2.0 * kHalf, 2.0 * kHalf});
     BodyOptions options = fine(0.02);
     options.field.cells = cells;
     return build({body("rod", rod), body("other", rod)}, options);
@@ -126,10 +126,11 @@ TEST(HiddenCrossing, IsToldBesideAContactThatPointsFeel) {
   const Vector3d corner(0.125, 0.125, 0.0), along = Vector3d(1, -1, 0).normalized(),
                                             out = Vector3d(1, 1, 0).normalized();
   const Isometry3d turned = pose({0, 0, 0}, -kPi / 4, {0, 0, 1});
-  BodyDescription plate = body("plate", Primitive(Box{{0.125, 0.125, 1e-4}}));
-  plate.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.12}}), translation(corner + 0.5 * along) * turned, "block"});
+  BodyDescription plate = body("plate", Primitive(Box::fromSize({0.25, 0.25, 0.0002})));
+  plate.geometry.push_back(
+      {Primitive(Box::fromSize({0.1, 0.1, 0.24})), translation(corner + 0.5 * along) * turned, "block"});
   const BodyOptions options = optionsForContacts();
-  const SceneDescription description{{plate, body("rod", Primitive(Box{{half, half, 0.1}}))}, {}};
+  const SceneDescription description{{plate, body("rod", Primitive(Box::fromSize({2.0 * half, 2.0 * half, 0.2})))}, {}};
   const auto scene =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
   const auto at = [&](double s) {
@@ -153,9 +154,9 @@ TEST(HiddenCrossing, IsToldBesideAContactThatPointsFeel) {
 TEST(HiddenCrossing, IsNoDeeperThanItsErrorWherePointsTouch) {
   for (const double half : {1.0 / 256, 1.0 / 128}) {
     const BodyOptions options = optionsForContacts();
-    const SceneDescription description{
-        {body("plate", Primitive(Box{{0.125, 0.125, 1.0 / 8192}})), body("rod", Primitive(Box{{half, half, 0.125}}))},
-        {}};
+    const SceneDescription description{{body("plate", Primitive(Box::fromSize({0.25, 0.25, 2.0 * (1.0 / 8192)}))),
+                                        body("rod", Primitive(Box::fromSize({2.0 * half, 2.0 * half, 0.25})))},
+                                       {}};
     const auto scene =
         std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
     Monitor monitor(scene, soft());
@@ -181,8 +182,8 @@ TEST(HiddenCrossing, IsNoDeeperThanItsError) {
   for (const double plate : {0.1, 0.5}) {
     for (const double half : {0.004, 0.02}) {
       SceneDescription description;
-      description.bodies = {body("plate", Primitive(Box{{plate, plate, 1e-4}})),
-                            body("rod", Primitive(Box{{half, half, 0.1}}))};
+      description.bodies = {body("plate", Primitive(Box::fromSize({2.0 * plate, 2.0 * plate, 0.0002}))),
+                            body("rod", Primitive(Box::fromSize({2.0 * half, 2.0 * half, 0.2})))};
       for (const BodyOptions& options : {optionsForContacts(), optionsFor({0.01})}) {
         const auto scene = std::make_shared<const Scene>(
             buildScene(description, planScene(description, planOptions(options)), options));
@@ -205,8 +206,8 @@ TEST(HiddenCrossing, IsNoDeeperThanItsError) {
 /// A rod that slides lengthwise through a thin plate crosses it all the time; hundreds of points feel it in turn.
 TEST(HiddenCrossing, OfARodThatHundredsOfPointsFeelIsOneContact) {
   for (const double half_length : {0.3, 1.2}) {
-    Monitor monitor(build({body("plate", Primitive(Box{{0.125, 0.125, 1e-4}})),
-                           body("rod", Primitive(Box{{0.001, 0.0007, half_length}}))},
+    Monitor monitor(build({body("plate", Primitive(Box::fromSize({0.25, 0.25, 0.0002}))),
+                           body("rod", Primitive(Box::fromSize({0.002, 0.0014, 2.0 * half_length})))},
                           optionsForContacts()),
                     {});
     const auto at = [&](double share) { return translation({0.0013, 0.0017, share * half_length}); };
@@ -223,11 +224,12 @@ TEST(HiddenCrossing, ThatIsTheFirstTouchHasAPlace) {
   const Vector3d corner(0.125, 0.125, 0.0), along = Vector3d(1, -1, 0).normalized(),
                                             out = Vector3d(1, 1, 0).normalized();
   Isometry3d turned = pose({0, 0, 0}, -kPi / 4, {0, 0, 1});
-  BodyDescription plate = body("plate", Primitive(Box{{0.125, 0.125, 1e-4}}));
-  plate.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.12}}), translation(corner + 0.5 * along) * turned, "block"});
+  BodyDescription plate = body("plate", Primitive(Box::fromSize({0.25, 0.25, 0.0002})));
+  plate.geometry.push_back(
+      {Primitive(Box::fromSize({0.1, 0.1, 0.24})), translation(corner + 0.5 * along) * turned, "block"});
   BodyOptions options = optionsForContacts();
   options.exact_depths = true;
-  const auto scene = build({plate, body("rod", Primitive(Box{{0.0007, 0.0007, 0.1}}))}, options);
+  const auto scene = build({plate, body("rod", Primitive(Box::fromSize({0.0014, 0.0014, 0.2})))}, options);
   CycleRequest refined;
   refined.refine = Refinement::kDeepest;
   int contacts = 0;

@@ -310,8 +310,8 @@ TEST(CycleTimeOfTwo, ALongSearchEndsInTime) {
 
 /// A bead moves into a box while the pair is postponed; afterwards no surfaces cross.
 TEST(CycleTimeOfTwo, WhatGotInsideMeanwhileIsFound) {
-  const auto scene = build({body("box", Primitive(Box{{0.3, 0.3, 0.3}}), true), body("bead", Primitive(Sphere{0.02})),
-                            body("post", Primitive(Sphere{0.3}))});
+  const auto scene = build({body("box", Primitive(Box::fromSize({0.6, 0.6, 0.6})), true),
+                            body("bead", Primitive(Sphere{0.02})), body("post", Primitive(Sphere{0.3}))});
   Monitor monitor(scene, {});
   CycleRequest request;
   request.max_time = kNoTime;

@@ -14,9 +14,9 @@ TEST(Monitor, DepthsBeyondTheBandHaveAnErrorThatHolds) {
   int deeper = 0;
   for (const double radius : {0.05, 0.1, 0.2, 0.5}) {
     for (const int pieces : {1, 7}) {
-      const auto scene =
-          build({body("ball", meshShape(icosphere(radius, 5))), body("box", Primitive(Box{{0.02, 0.02, 0.02}}))},
-                optionsForContacts());
+      const auto scene = build(
+          {body("ball", meshShape(icosphere(radius, 5))), body("box", Primitive(Box::fromSize({0.04, 0.04, 0.04})))},
+          optionsForContacts());
       Monitor monitor(scene, {});
       const auto at = [&](double share) {
         return translation({(4.0 * share - 2.0) * radius, 0.01, 0.02 + 0.005 * share});

@@ -21,9 +21,9 @@ using test::translation;
 
 /// Verdict of a small box that moves from `start` to `end` in the mesh's frame.
 Verdict verdictOf(const TriangleMesh& mesh, const Vector3d& start, const Vector3d& end) {
-  const auto scene =
-      test::build({test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}})), test::body("part", test::meshShape(mesh))},
-                  test::fine(0.02));
+  const auto scene = test::build(
+      {test::body("bead", Primitive(Box::fromSize({0.04, 0.04, 0.04}))), test::body("part", test::meshShape(mesh))},
+      test::fine(0.02));
   Monitor monitor(scene, test::soft());
   return monitor
       .run(test::cycle(0.1, {{translation(start), translation(end)}, test::still(Isometry3d::Identity())}), {})
@@ -133,7 +133,7 @@ TEST(DoubtfulMesh, WhatIsInACavityOfACrackedHousingIsNoContact) {
 TEST(DoubtfulMesh, WhatComesOutOfATubeBecomesClear) {
   const TriangleMesh tube = test::without(boxMesh({0.03, 0.03, 0.2}), [](const Vector3d& p) { return p.z() > 0.19; });
   const TriangleMesh sheets = merged(boxMesh({0.3, 0.3, 0.3}), flipped(mirroredBox({0.3, 0.3, 0.3})));
-  const auto scene = test::build({test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}})),
+  const auto scene = test::build({test::body("bead", Primitive(Box::fromSize({0.04, 0.04, 0.04}))),
                                   test::body("part", test::meshShape(merged(tube, translated(sheets, {2, 0, 0}))))},
                                  test::fine(0.02));
   ASSERT_TRUE(scene->bodies[1].doubtful);
@@ -217,9 +217,9 @@ TEST(DoubtfulMesh, WhatIsInsideIsNeverClearWhateverItIs) {
   open.triangles.pop_back();
   BodyDescription voxel = test::body("bead", test::meshShape(boxMesh({0.02, 0.02, 0.02})));
   voxel.geometry.front().watertight_voxels = true;
-  BodyDescription plane = test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}}));
+  BodyDescription plane = test::body("bead", Primitive(Box::fromSize({0.04, 0.04, 0.04})));
   plane.geometry.push_back({Primitive(HalfSpace{Vector3d::UnitZ(), -5.0}), Isometry3d::Identity(), "plane", false});
-  const BodyDescription box = test::body("bead", Primitive(Box{{0.02, 0.02, 0.02}}));
+  const BodyDescription box = test::body("bead", Primitive(Box::fromSize({0.04, 0.04, 0.04})));
   const std::pair<BodyDescription, BodyDescription> pairs[] = {
       {box, doubtfulLink(std::nullopt)},
       {box, doubtfulLink(test::meshShape(open))},

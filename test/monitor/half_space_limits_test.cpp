@@ -45,7 +45,7 @@ TEST(HalfSpaceLimits, LongWaysNearTheSurfaceEndSoon) {
 
 /// Rotations may be off by 1e-6. Then also what lies between two poses is: by that times the way.
 TEST(HalfSpaceLimits, InexactRotationsCostAnError) {
-  Fall fall(Primitive(Box{{0.1, 0.1, 0.1}}), Isometry3d::Identity());
+  Fall fall(Primitive(Box::fromSize({0.2, 0.2, 0.2})), Isometry3d::Identity());
   for (const double off : {3e-7, -3e-7, 1e-9})
     for (const double way : {10.0, 1e4})
       for (const double gap : {2e-7, -2e-7}) {
@@ -74,7 +74,7 @@ TEST(HalfSpaceLimits, NormalsAreNormalised) {
     EXPECT_NEAR(DistanceField(plane).sample({0, 0, height}).value, 0.0, 1e-8);
     for (const double gap : {2e-4, -2e-4}) {
       const auto scene =
-          build({body("plane", Primitive(plane)), body("box", Primitive(Box{{0.1, 0.1, 0.1}}))}, fine(0.05));
+          build({body("plane", Primitive(plane)), body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))}, fine(0.05));
       Monitor monitor(scene, soft());
       const auto above = still(translation({0, 0, height + 0.1 + gap}));
       EXPECT_EQ(monitor.run(cycle(0.1, {still(Isometry3d::Identity()), above}), {}).pairs[0].verdict,
@@ -86,7 +86,7 @@ TEST(HalfSpaceLimits, NormalsAreNormalised) {
 /// What is below the surface all the time is in contact all the time, though its lowest point changes.
 TEST(HalfSpaceLimits, BelowIsBelowThroughout) {
   Fall ball(Primitive(Sphere{0.1}), Isometry3d::Identity()),
-      cylinder(Primitive(Cylinder{0.1, 0.05}), Isometry3d::Identity());
+      cylinder(Primitive(Cylinder::fromRadiusAndLength(0.1, 0.1)), Isometry3d::Identity());
   const auto isWhole = [](const PairResult& result) {
     EXPECT_EQ(result.verdict, Verdict::kContact);
     return result.intervals.size() == 1 && result.intervals[0].enter == 0.0 && result.intervals[0].exit >= 0.1;
@@ -111,7 +111,7 @@ TEST(HalfSpaceLimits, BelowIsBelowThroughout) {
 /// The triangles of a cylinder deviate from it, to either side.
 TEST(HalfSpaceLimits, UncertainHoldsForWhatTrianglesStandFor) {
   constexpr double kRadius = 0.1, kHalf = 0.05;
-  Fall fall(Primitive(Cylinder{kRadius, kHalf}), Isometry3d::Identity());
+  Fall fall(Primitive(Cylinder::fromRadiusAndLength(kRadius, 2.0 * kHalf)), Isometry3d::Identity());
   Random random(3);
   int uncertain = 0;
   for (int trial = 0; trial < 3000; ++trial) {
@@ -135,7 +135,7 @@ TEST(HalfSpaceLimits, TheErrorHoldsFarFromTheFrame) {
   far.linear() = pose({0, 0, 0}, 0.3, {0, 1, 0}).linear();
   BodyDescription plane = body("plane", Primitive(HalfSpace{Vector3d::UnitX(), -1e12 * std::cos(0.3)}));
   plane.geometry[0].X_BG = far;
-  const auto scene = build({plane, body("box", Primitive(Box{{0.1, 0.1, 0.1}}))}, fine(0.05));
+  const auto scene = build({plane, body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))}, fine(0.05));
   Monitor monitor(scene, soft());
   const PairResult result =
       monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(Isometry3d::Identity())}), verdictOnly()).pairs[0];
@@ -145,7 +145,7 @@ TEST(HalfSpaceLimits, TheErrorHoldsFarFromTheFrame) {
 
 /// Of a body wholly below a plane that turns, the witnesses and the normal are those of the end.
 TEST(HalfSpaceLimits, DistancesAreOfTheEnd) {
-  Fall fall(Primitive(Box{{0.1, 0.05, 0.02}}), Isometry3d::Identity());
+  Fall fall(Primitive(Box::fromSize({0.2, 0.1, 0.04})), Isometry3d::Identity());
   for (const double depth : {1.0, 5e-3}) {
     const Isometry3d turn = pose({0.3, 0.1, 0.0}, 1.0, {1, 0, 0});
     const Isometry3d below = translation({0, 0, 0.02 - depth});

@@ -26,12 +26,12 @@ double boxDepth(const Vector3d& down) {
 }
 
 const Case kCases[] = {
-    {"box", Primitive(Box{kHalf}), boxDepth},
+    {"box", Primitive(Box::fromSize(2.0 * kHalf)), boxDepth},
     {"mesh", meshShape(boxMesh(kHalf)), boxDepth},
     {"open mesh", meshShape(without(boxMesh(kHalf), [](const Vector3d& p) { return p.z() > 0.9 * kHalf.z(); })),
      boxDepth},
     {"ball", Primitive(Sphere{kRadius}), [](const Vector3d&) { return kRadius; }},
-    {"cylinder", Primitive(Cylinder{kRadius, kHalfLength}),
+    {"cylinder", Primitive(Cylinder::fromRadiusAndLength(kRadius, 2.0 * kHalfLength)),
      [](const Vector3d& down) { return kRadius * std::hypot(down.x(), down.y()) + kHalfLength * std::abs(down.z()); }},
 };
 
@@ -79,11 +79,11 @@ TEST(HalfSpacePair, TellsATenthOfAMillimetre) {
 
 /// Shapes of a larger size, and how far each reaches against a direction of its frame.
 const Case kLargeCases[] = {
-    {"box", Primitive(Box{{0.3, 0.2, 0.1}}),
+    {"box", Primitive(Box::fromSize({0.6, 0.4, 0.2})),
      [](const Vector3d& down) { return down.cwiseAbs().dot(Vector3d(0.3, 0.2, 0.1)); }},
-    {"flat cylinder", Primitive(Cylinder{0.3, 0.05}),
+    {"flat cylinder", Primitive(Cylinder::fromRadiusAndLength(0.3, 0.1)),
      [](const Vector3d& down) { return 0.3 * std::hypot(down.x(), down.y()) + 0.05 * std::abs(down.z()); }},
-    {"long cylinder", Primitive(Cylinder{0.02, 0.5}),
+    {"long cylinder", Primitive(Cylinder::fromRadiusAndLength(0.02, 1.0)),
      [](const Vector3d& down) { return 0.02 * std::hypot(down.x(), down.y()) + 0.5 * std::abs(down.z()); }},
 };
 

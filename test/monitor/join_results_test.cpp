@@ -49,7 +49,8 @@ TEST(ResultJoiner, TheBoundOfAHiddenDepthIsKept) {
 
 TEST(ResultJoiner, PiecesTogetherSayWhatTheWholeSays) {
   const auto scene =
-      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.05, 0.4, 0.35}}), true)}, fine(0.01));
+      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box::fromSize({0.1, 0.8, 0.7})), true)},
+            fine(0.01));
   Monitor at_once(scene, soft()), piece_by_piece(scene, soft());
   const CycleMotion motion = throughAndBack();
   const CycleRequest request{true, 5};
@@ -155,8 +156,9 @@ TEST(ResultJoiner, NoPieceIsDeeperThanTheWholeSays) {
 }
 
 TEST(ResultJoiner, WhatOnePieceDoesNotKnowTheWholeDoesNotKnow) {
-  const auto scene = build(
-      {body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box{{0.05, 0.05, 0.05}}), true)}, fine(0.01));
+  const auto scene =
+      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box::fromSize({0.1, 0.1, 0.1})), true)},
+            fine(0.01));
   Monitor monitor(scene, soft());
   const CycleMotion still_apart = cycle(1.0, {still(translation({1.0, 0.0, 0.0})), still(Isometry3d::Identity())});
   CycleMotion lost = still_apart;

@@ -82,7 +82,8 @@ TEST(MaxError, BoxesAreToldApartAtAMillimetre) {
 
 TEST(MaxError, ABodyOfSeveralElementsIsHeldToItsShare) {
   BodyDescription hand = body("hand", meshShape(boxMesh({0.04, 0.03, 0.02})));
-  hand.geometry.push_back({Primitive(Cylinder{0.008, 0.055}), pose({0.09, 0, 0}, 1.5707963, {0, 1, 0}), "finger"});
+  hand.geometry.push_back(
+      {Primitive(Cylinder::fromRadiusAndLength(0.008, 0.11)), pose({0.09, 0, 0}, 1.5707963, {0, 1, 0}), "finger"});
   hand.geometry.push_back({Primitive(Sphere{0.008}), translation({0.145, 0, 0}), "tip"});
   for (const double max_error : {0.005, 0.002}) {
     const auto scene = build({hand, body("other", meshShape(boxMesh({0.1, 0.05, 0.03})))}, optionsFor({max_error}));
@@ -93,8 +94,9 @@ TEST(MaxError, ABodyOfSeveralElementsIsHeldToItsShare) {
 }
 
 TEST(MaxError, ATableNeedsNoShellAgainstALink) {
-  const SceneDescription description{
-      {body("table", Primitive(Box{{1.0, 0.6, 0.02}}), true), body("link", meshShape(boxMesh({0.1, 0.05, 0.03})))}, {}};
+  const SceneDescription description{{body("table", Primitive(Box::fromSize({2.0, 1.2, 0.04})), true),
+                                      body("link", meshShape(boxMesh({0.1, 0.05, 0.03})))},
+                                     {}};
   const BodyOptions options = optionsFor({0.001});
   const ScenePlan plan = planScene(description, planOptions(options));
   ASSERT_FALSE(plan.needs[0].shell);
@@ -181,7 +183,7 @@ std::string refusal(const SceneDescription& description, const BodyOptions& opti
 
 TEST(MaxError, WhatCannotBeMeantOrAffordedIsRefused) {
   const SceneDescription description{
-      {body("ball", meshShape(icosphere(0.1, 3))), body("pin", Primitive(Cylinder{0.01, 0.1})),
+      {body("ball", meshShape(icosphere(0.1, 3))), body("pin", Primitive(Cylinder::fromRadiusAndLength(0.01, 0.2))),
        body("bead", Primitive(Sphere{0.02})), body("floor", Primitive(HalfSpace{{0, 0, 1}, 0.0}), true)},
       {}};
   EXPECT_EQ(refusal(description, optionsFor({0.003})), "");

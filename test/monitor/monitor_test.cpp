@@ -35,8 +35,9 @@ TEST(Monitor, GivesAllFourVerdicts) {
 }
 
 TEST(Monitor, FindsContactBetweenTheSamples) {
-  const auto scene = build(
-      {body("plate", Primitive(Box{{0.05, 0.05, 0.0005}}), true), body("ball", Primitive(Sphere{0.02}))}, fine(0.004));
+  const auto scene =
+      build({body("plate", Primitive(Box::fromSize({0.1, 0.1, 0.001})), true), body("ball", Primitive(Sphere{0.02}))},
+            fine(0.004));
   Monitor monitor(scene, soft());
   // Through the plate from above to below within one cycle.
   const CycleResult& result = monitor.run(
@@ -67,9 +68,9 @@ TEST(Monitor, SeesWhatASampleSees) {
 
 TEST(Monitor, QuarterTurnWithinOneCycle) {
   // A bar swings through a post that it touches neither before nor after.
-  BodyDescription bar = body("bar", Primitive(Box{{0.25, 0.02, 0.02}}));
+  BodyDescription bar = body("bar", Primitive(Box::fromSize({0.5, 0.04, 0.04})));
   bar.geometry[0].X_BG = translation({0.35, 0, 0});
-  const auto scene = build({body("post", Primitive(Cylinder{0.03, 0.2}), true), bar});
+  const auto scene = build({body("post", Primitive(Cylinder::fromRadiusAndLength(0.03, 0.4)), true), bar});
   Monitor monitor(scene, soft());
   const Isometry3d post = translation({0.3, 0.3, 0});
   const CycleMotion swing = cycle(0.1, {still(post), {Isometry3d::Identity(), pose({0, 0, 0}, kPi / 2, {0, 0, 1})}});
@@ -87,7 +88,8 @@ TEST(Monitor, QuarterTurnWithinOneCycle) {
 TEST(Monitor, ResultsDoNotDependOnThreads) {
   Random random(9);
   std::vector<BodyDescription> bodies;
-  for (int i = 0; i < 6; ++i) bodies.push_back(body("b" + std::to_string(i), Primitive(Box{{0.1, 0.08, 0.05}})));
+  for (int i = 0; i < 6; ++i)
+    bodies.push_back(body("b" + std::to_string(i), Primitive(Box::fromSize({0.2, 0.16, 0.1}))));
   const auto scene = build(bodies, fine(0.02));
   Monitor one(scene, soft()), two(scene, soft());
   for (int i = 0; i < 10; ++i) {
@@ -156,7 +158,7 @@ TEST(Monitor, CyclesDoNotDependOnThreads) {
     const std::string number = std::to_string(i);
     bodies.push_back(body("box" + number, meshShape(boxMesh({0.1, 0.08, 0.05}))));
     bodies.push_back(body("ball" + number, Primitive(Sphere{0.07})));
-    bodies.push_back(body("drum" + number, Primitive(Cylinder{0.06, 0.08})));
+    bodies.push_back(body("drum" + number, Primitive(Cylinder::fromRadiusAndLength(0.06, 0.16))));
     bodies.push_back(body("ring" + number, meshShape(torusMesh(0.1, 0.03, 24, 12))));
   }
   const auto scene = build(bodies, fine(0.02));
@@ -299,7 +301,7 @@ TEST(Monitor, PointsOnEdgesTellCrossedPlatesApart) {
   // Two thin plates on edge, crosswise, one above the other: their rims are nearest to each other.
   BodyOptions options = fine(0.02);
   options.shell.edge_gap = 0.001;
-  const Primitive plate = Box{{0.1, 0.001, 0.05}};
+  const Primitive plate = Box::fromSize({0.2, 0.002, 0.1});
   const auto scene = build({body("a", plate), body("b", plate)}, options),
              plain = build({body("a", plate), body("b", plate)}, fine(0.02));
   const auto verdictAt = [](const std::shared_ptr<const Scene>& scene, double apart) {

@@ -18,7 +18,8 @@ struct Pressed {
 TEST(MonitorWrench, BothRolesDoNotDouble) {
   const Pressed press;
   const auto scene = build(
-      {body("ball", Primitive(Sphere{press.R})), body("block", Primitive(Box{{0.07, 0.07, 0.03}}), true)}, fine(0.003));
+      {body("ball", Primitive(Sphere{press.R})), body("block", Primitive(Box::fromSize({0.14, 0.14, 0.06})), true)},
+      fine(0.003));
   Monitor monitor(scene, soft());
   const Isometry3d X_WA = translation({0.02, 0.03, 0.03 + press.R - press.delta});
   const PairResult pair = monitor.run(cycle(0.1, {still(X_WA), still(Isometry3d::Identity())}), {}).pairs[0];
@@ -57,7 +58,7 @@ TEST(MonitorWrench, HowFarABallRollsDoesNotMatter) {
 TEST(MonitorWrench, OrderOfTheBodiesDoesNotMatter) {
   const Pressed press;
   const BodyDescription ball = body("ball", Primitive(Sphere{press.R})),
-                        slab = body("slab", Primitive(Box{{0.2, 0.2, 0.1}}));
+                        slab = body("slab", Primitive(Box::fromSize({0.4, 0.4, 0.2})));
   const Isometry3d X_ball = translation({0.12, 0.0, 0.1 + press.R - press.delta}), X_slab = Isometry3d::Identity();
   Monitor one(build({ball, slab}), soft()), other(build({slab, ball}), soft());
   const PairResult ab = one.run(cycle(0.1, {still(X_ball), still(X_slab)}), {}).pairs[0];
@@ -86,8 +87,9 @@ TEST(MonitorWrench, MomentsAreAboutBothOrigins) {
 
 TEST(MonitorWrench, ActionEqualsReactionAboutOnePoint) {
   Random random(2);
-  const auto scene =
-      build({body("a", Primitive(Box{{0.1, 0.15, 0.05}})), body("b", Primitive(Cylinder{0.08, 0.1}))}, fine(0.04));
+  const auto scene = build({body("a", Primitive(Box::fromSize({0.2, 0.3, 0.1}))),
+                            body("b", Primitive(Cylinder::fromRadiusAndLength(0.08, 0.2)))},
+                           fine(0.04));
   MonitorOptions options = soft();
   options.contact.damping = 1e5;
   Monitor monitor(scene, options);
@@ -110,8 +112,9 @@ TEST(MonitorWrench, ActionEqualsReactionAboutOnePoint) {
 
 TEST(MonitorWrench, TheWorldsFrameDoesNotMatter) {
   Random random(4);
-  const auto scene =
-      build({body("a", Primitive(Box{{0.1, 0.15, 0.05}})), body("b", Primitive(Cylinder{0.08, 0.1}))}, fine(0.04));
+  const auto scene = build({body("a", Primitive(Box::fromSize({0.2, 0.3, 0.1}))),
+                            body("b", Primitive(Cylinder::fromRadiusAndLength(0.08, 0.2)))},
+                           fine(0.04));
   MonitorOptions options = soft();
   options.contact.damping = 1e5;
   Monitor here(scene, options), there(scene, options);
@@ -134,7 +137,7 @@ TEST(MonitorWrench, TheWorldsFrameDoesNotMatter) {
 
 TEST(MonitorWrench, OverlappingPartsOfABodyPushOnce) {
   const Pressed press;
-  BodyDescription block = body("block", Primitive(Box{{0.07, 0.06, 0.03}}), true);
+  BodyDescription block = body("block", Primitive(Box::fromSize({0.14, 0.12, 0.06})), true);
   BodyDescription doubled = block;
   doubled.geometry.push_back(block.geometry[0]);
   doubled.geometry[1].X_BG = translation({0.01, 0, 0});
@@ -215,9 +218,9 @@ TEST(MonitorWrench, HundredMetresPerSecondThroughOneMillimetre) {
   // A ball passes through a thin plate within a hundredth of a cycle: damping absorbs k_D times the volume swept by
   // each.
   const double R = 0.02, thickness = 1e-3, T = 0.01, v = 100.0, damping = 1e6;
-  const auto scene =
-      build({body("ball", Primitive(Sphere{R})), body("plate", Primitive(Box{{0.03, 0.03, thickness / 2}}), true)},
-            fine(0.002));
+  const auto scene = build({body("ball", Primitive(Sphere{R})),
+                            body("plate", Primitive(Box::fromSize({0.06, 0.06, 2.0 * (thickness / 2)})), true)},
+                           fine(0.002));
   MonitorOptions options;
   options.contact.stiffness = 0.0;
   options.contact.damping = damping;

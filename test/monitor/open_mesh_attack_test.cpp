@@ -139,8 +139,8 @@ TEST(OpenMeshAttack, ClimbingFindsNoFalseVerdict) {
 
 /// A tessellation as fine as the disc is thin would have too many triangles.
 TEST(OpenMeshAttack, ADiscOfHardlyAnyThickness) {
-  const auto scene = test::build(
-      {test::body("bin", test::meshShape(test::binMesh(0.2))), test::body("disc", Primitive(Cylinder{0.5, 1e-12}))});
+  const auto scene = test::build({test::body("bin", test::meshShape(test::binMesh(0.2))),
+                                  test::body("disc", Primitive(Cylinder::fromRadiusAndLength(0.5, 2e-12)))});
   EXPECT_TRUE(scene->bodies[1].failure.empty()) << scene->bodies[1].failure;
   Monitor monitor(scene, test::soft());
   const auto verdictAt = [&](const Vector3d& p) {

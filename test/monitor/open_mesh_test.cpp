@@ -77,7 +77,7 @@ TEST(OpenMesh, ABallAtRestInTheOpeningIsNoContact) {
 TEST(OpenMesh, ABallFreeInALidlessBinFromItsPadIsNoContact) {
   constexpr double kPad = 0.006, kDip = 0.004, kError = 0.005;
   for (const bool with_bin : {false, true}) {
-    BodyDescription padded = test::body("bin", Primitive(Box{{0.03, 0.03, 0.5 * kPad}}));
+    BodyDescription padded = test::body("bin", Primitive(Box::fromSize({0.06, 0.06, kPad})));
     padded.geometry[0].X_BG = translation({0, 0, -kHalf + 0.5 * kPad});
     if (with_bin) padded.geometry.push_back({test::meshShape(test::binMesh(kHalf)), Isometry3d::Identity(), "bin.stl"});
     BodyOptions options = coarse();
@@ -99,7 +99,8 @@ TEST(OpenMesh, ARodThroughASheetIsAContact) {
   sheet.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   const auto scene = test::build(
-      {test::body("rod", Primitive(Box{{0.02, 0.03, 0.2}})), test::body("sheet", test::meshShape(sheet))}, coarse());
+      {test::body("rod", Primitive(Box::fromSize({0.04, 0.06, 0.4}))), test::body("sheet", test::meshShape(sheet))},
+      coarse());
   Monitor monitor(scene, test::soft());
   const auto verdictAt = [&](double z) {
     const Isometry3d X = test::pose({0.1, 0.05, z}, 0.3, {1, 2, 3});

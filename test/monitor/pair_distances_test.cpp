@@ -32,7 +32,8 @@ double boxDistance(const Vector3d& half_a, const Isometry3d& X_WA, const Vector3
 class PairDistancesTest : public ::testing::Test {
  protected:
   PairDistancesTest()
-      : scene_(test::build({test::body("box", Primitive(Box{kBox})), test::body("block", Primitive(Box{kBlock}), true),
+      : scene_(test::build({test::body("box", Primitive(Box::fromSize(2.0 * kBox))),
+                            test::body("block", Primitive(Box::fromSize(2.0 * kBlock)), true),
                             test::body("ball", Primitive(Sphere{kRadius})), test::body("ground", test::ground(), true)},
                            test::fine(0.005))),
         monitor_(scene_, test::soft()),
@@ -248,7 +249,7 @@ TEST(PairDistancesOf, WhatIsInsideIsAtNoDistance) {
 
 TEST(PairDistancesOf, AnObjectWithAPlaneAndMoreItsPlaneIsHeldByNoBall) {
   BodyDescription ground = test::body("ground", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true);
-  ground.geometry.push_back({Primitive(Box{Vector3d(0.1, 0.1, 0.1)}), test::translation({0, 0, 0.1}), "box", false});
+  ground.geometry.push_back({Primitive(Box::fromSize({0.2, 0.2, 0.2})), test::translation({0, 0, 0.1}), "box", false});
   const BodyDescription ball = test::body("ball", Primitive(Sphere{0.1}));
   for (const bool ground_first : {false, true}) {
     const auto scene = test::build(ground_first ? std::vector<BodyDescription>{ground, ball}

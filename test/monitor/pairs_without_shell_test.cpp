@@ -29,7 +29,7 @@ class PairsWithoutShell : public ::testing::TestWithParam<std::string> {
     BodyDescription plane = body("obstacle", Primitive(HalfSpace{Vector3d::UnitZ(), 0.2}), true);
     if (GetParam() == "plane") return plane;
     plane.geometry[0].shape = Primitive(HalfSpace{Vector3d::UnitZ(), -1.0});
-    plane.geometry.push_back({Primitive(Box{{0.2, 0.2, 0.2}}), Isometry3d::Identity(), "box"});
+    plane.geometry.push_back({Primitive(Box::fromSize({0.4, 0.4, 0.4})), Isometry3d::Identity(), "box"});
     return plane;
   }
 

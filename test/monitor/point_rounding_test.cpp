@@ -21,7 +21,8 @@ double lowestCorner(const Vector3d& half, const Matrix3d& R) {
 /// A box above a plane, which its true corners do not reach, or just do. Points that were rounded out of the box do.
 TEST(PointRounding, ProvesNoContactAndHidesNone) {
   const Vector3d half(0.1, 0.2, 0.3);
-  const auto scene = build({body("ground", ground(), true), body("box", Primitive(Box{half}))}, fine(0.05));
+  const auto scene =
+      build({body("ground", ground(), true), body("box", Primitive(Box::fromSize(2.0 * half)))}, fine(0.05));
   const PointShell& shell = *scene->bodies[1].shell;
   const double error = shell.position_error;
   ASSERT_GT(error, 1e-9);

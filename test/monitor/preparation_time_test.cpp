@@ -24,9 +24,10 @@ BodyOptions limited(double seconds = kLimit * slowness()) {
 
 /// Builds a robot of a ball, a link with this mesh, twice, and a box.
 void expectOthersAreBuilt(const TriangleMesh& hostile) {
-  const SceneDescription description{{body("ball", meshShape(icosphere(0.1, 2))), body("hostile", meshShape(hostile)),
-                                      body("twin", meshShape(hostile)), body("box", Primitive(Box{{0.1, 0.1, 0.1}}))},
-                                     {}};
+  const SceneDescription description{
+      {body("ball", meshShape(icosphere(0.1, 2))), body("hostile", meshShape(hostile)),
+       body("twin", meshShape(hostile)), body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))},
+      {}};
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = buildScene(description, planScene(description, planOptions(limited())), limited());
   EXPECT_LT(secondsSince(start), (kLimit + kSlack) * slowness());
@@ -58,7 +59,7 @@ TEST(PreparationTime, StopsNestedShells) {
 /// The pairs of the body that failed are in the scene, and not checked.
 TEST(PreparationTime, PairsOfALateBodyAreNotChecked) {
   const auto scene = build({body("hostile", meshShape(randomTrianglesMesh(20000))), body("a", Primitive(Sphere{0.1})),
-                            body("b", Primitive(Box{{0.1, 0.1, 0.1}}))},
+                            body("b", Primitive(Box::fromSize({0.2, 0.2, 0.2})))},
                            limited());
   Monitor monitor(scene, soft());
   const CycleResult result = monitor.run(
@@ -74,7 +75,7 @@ TEST(PreparationTime, PairsOfALateBodyAreNotChecked) {
 TEST(PreparationTime, AnEditRefusesALateObject) {
   WorldEditor editor(limited());
   const SceneDescription before{
-      {body("ball", meshShape(icosphere(0.1, 2))), body("box", Primitive(Box{{0.1, 0.1, 0.1}}))}, {}};
+      {body("ball", meshShape(icosphere(0.1, 2))), body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))}, {}};
   const auto known = editor.next(before);
   SceneDescription after = before;
   after.bodies.push_back(body("hostile", meshShape(randomTrianglesMesh(20000))));
@@ -92,7 +93,8 @@ TEST(PreparationTime, AnEditRefusesALateObject) {
 /// The caller's own request is not taken for the limit.
 TEST(PreparationTime, ACancelledBuildIsNoFailure) {
   const SceneDescription description{
-      {body("hostile", meshShape(randomTrianglesMesh(20000))), body("box", Primitive(Box{{0.1, 0.1, 0.1}}))}, {}};
+      {body("hostile", meshShape(randomTrianglesMesh(20000))), body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})))},
+      {}};
   const CancelScope scope(CancelRequest::Clock::now() + std::chrono::milliseconds(100));
   EXPECT_THROW(buildScene(description, planScene(description), limited(60.0)), Cancelled);
 }

@@ -105,7 +105,7 @@ TEST(RestingAnswers, StayWhileTheSceneChangesAroundTheirBodies) {
   SceneDescription description = twoBoxes();
   const auto before = editor.next(description)->scene;
   before->resting->keep({before->bodies.shared(0), before->bodies.shared(1)}, marked(X_AB, {}));
-  description.bodies.push_back(body("table", Primitive(Box{{1, 1, 0.1}}), true));
+  description.bodies.push_back(body("table", Primitive(Box::fromSize({2, 2, 0.2})), true));
   const auto after = editor.next(description)->scene;
   Monitor monitor(after, {});
   CycleMotion motion = together(0.0, 0.1, X_AB);

@@ -56,7 +56,7 @@ class RigidWatchTest : public ::testing::Test {
 
 TEST_F(RigidWatchTest, BodiesMayDeviateByAMillimetreAtTheCornersOfTheirBoxes) {
   add("a", Sphere{0.1});
-  add("b", Box{Vector3d(0.03, 0.04, 0.12)});  // corners at 0.13 m
+  add("b", Box::fromSize({0.06, 0.08, 0.24}));  // corners at 0.13 m
   const auto hasMoved = [&](const Isometry3d& X_WB) { return !moved({{at(0)}, {at(1), at(1), X_WB}}).empty(); };
   EXPECT_FALSE(hasMoved(at(1)));
   EXPECT_FALSE(hasMoved(at(1.0009)));

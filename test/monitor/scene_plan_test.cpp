@@ -176,9 +176,9 @@ TEST(ScenePlan, RefusesAmbiguousNames) {
 }
 
 TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
-  const Primitive table = Box{{1.0, 0.5, 0.02}};
-  const SceneDescription scene{{body("table", table), body("hand", kBall), body("wall", Primitive(Box{{5, 5, 0.1}}))},
-                               {}};
+  const Primitive table = Box::fromSize({2.0, 1.0, 0.04});
+  const SceneDescription scene{
+      {body("table", table), body("hand", kBall), body("wall", Primitive(Box::fromSize({10, 10, 0.2})))}, {}};
   const ScenePlan plan = planScene(scene, {0.005});
   ASSERT_EQ(plan.pairs.size(), 3U);
   EXPECT_FALSE(plan.pairs[0].a_shell_b_field);  // table – hand
@@ -186,8 +186,8 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_TRUE(plan.pairs[1].a_shell_b_field);  // table – wall: both are large, so both are sampled
   EXPECT_TRUE(plan.pairs[1].b_shell_a_field);
   // A large body that a smaller one could still contain keeps its shell, and so does every body at a coarse spacing.
-  const SceneDescription cubes{{body("cube", Primitive(Box{{0.5, 0.5, 0.5}})), body("ball", Primitive(Sphere{0.4}))},
-                               {}};
+  const SceneDescription cubes{
+      {body("cube", Primitive(Box::fromSize({1.0, 1.0, 1.0}))), body("ball", Primitive(Sphere{0.4}))}, {}};
   EXPECT_TRUE(planScene(cubes, {0.001}).pairs[0].a_shell_b_field);
   EXPECT_TRUE(planScene(scene, {0.1}).pairs[0].a_shell_b_field);
   const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});

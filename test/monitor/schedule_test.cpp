@@ -149,7 +149,7 @@ TEST(Schedule, MeasuresPairsBeforeManyAreDueAtOnce) {
   std::vector<BodyDescription> bodies = {body("ball", Primitive(Sphere{0.05}))};
   constexpr int kObstacles = 6;
   for (int i = 0; i < kObstacles; ++i)
-    bodies.push_back(body("obstacle " + std::to_string(i), Primitive(Box{{0.05, 0.04, 0.03}})));
+    bodies.push_back(body("obstacle " + std::to_string(i), Primitive(Box::fromSize({0.1, 0.08, 0.06}))));
   std::vector<std::vector<Isometry3d>> X_WB(1 + kObstacles);
   for (int i = 0; i < kObstacles; ++i) {
     const double angle = 2.0 * M_PI * i / kObstacles;

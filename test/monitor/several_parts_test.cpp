@@ -25,7 +25,7 @@ BodyDescription groundAndBall() {
 }
 
 TEST(SeveralParts, ABallBesideAHalfSpaceWhollyInsideABox) {
-  const auto scene = build({groundAndBall(), body("box", Primitive(Box{{0.3, 0.3, 0.3}}))});
+  const auto scene = build({groundAndBall(), body("box", Primitive(Box::fromSize({0.6, 0.6, 0.6})))});
   const Isometry3d at_rest = Isometry3d::Identity();
   EXPECT_EQ(atRest(scene, at_rest, translation({0, 0, 1})).verdict, Verdict::kContact);
   EXPECT_EQ(atRest(scene, at_rest, translation({0, 0.5, 1})).verdict, Verdict::kClear);
@@ -34,7 +34,7 @@ TEST(SeveralParts, ABallBesideAHalfSpaceWhollyInsideABox) {
 TEST(SeveralParts, AMeshBesideAHalfSpaceWhollyInsideABox) {
   BodyDescription fixture = body("fixture", ground());
   addPart(meshShape(boxMesh({0.05, 0.05, 0.05})), translation({0, 0, 1}), fixture);
-  const auto scene = build({fixture, body("box", Primitive(Box{{0.3, 0.3, 0.3}}))});
+  const auto scene = build({fixture, body("box", Primitive(Box::fromSize({0.6, 0.6, 0.6})))});
   EXPECT_EQ(atRest(scene, Isometry3d::Identity(), translation({0, 0, 1})).verdict, Verdict::kContact);
 }
 
@@ -42,7 +42,7 @@ TEST(SeveralParts, ABallBesideVoxelsWhollyInsideABox) {
   BodyDescription map = body("map", meshShape(boxMesh({0.1, 0.1, 0.1})));
   map.geometry[0].watertight_voxels = true;
   addPart(Primitive(Sphere{0.05}), translation({0, 0, 1}), map);
-  const auto scene = build({map, body("box", Primitive(Box{{0.3, 0.3, 0.3}}))});
+  const auto scene = build({map, body("box", Primitive(Box::fromSize({0.6, 0.6, 0.6})))});
   EXPECT_EQ(atRest(scene, Isometry3d::Identity(), translation({0, 0, 1})).verdict, Verdict::kContact);
 }
 

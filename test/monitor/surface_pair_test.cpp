@@ -15,12 +15,14 @@ using namespace test;
 /// Independent of fields and shells: boxes, balls, cylinders and meshes.
 TEST(SurfacePair, TellsATenthOfAMillimetre) {
   constexpr double kGap = 5e-5, kHalf = 0.1;
-  const std::vector<std::pair<Shape, double>> shapes = {{Primitive(Box{{kHalf, kHalf, kHalf}}), kHalf},
-                                                        {Primitive(Sphere{kHalf}), kHalf},
-                                                        {Primitive(Cylinder{kHalf, kHalf}), kHalf},
-                                                        {meshShape(boxMesh({kHalf, kHalf, kHalf})), kHalf}};
+  const std::vector<std::pair<Shape, double>> shapes = {
+      {Primitive(Box::fromSize({2.0 * kHalf, 2.0 * kHalf, 2.0 * kHalf})), kHalf},
+      {Primitive(Sphere{kHalf}), kHalf},
+      {Primitive(Cylinder::fromRadiusAndLength(kHalf, 2.0 * kHalf)), kHalf},
+      {meshShape(boxMesh({kHalf, kHalf, kHalf})), kHalf}};
   for (const auto& [shape, half] : shapes) {
-    const auto scene = build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("thing", shape)}, coarse());
+    const auto scene =
+        build({body("slab", Primitive(Box::fromSize({0.6, 0.6, 0.02}))), body("thing", shape)}, coarse());
     ASSERT_TRUE(scene->bodies[0].triangles && scene->bodies[1].triangles);
     Monitor monitor(scene, soft());
     const PairResult apart = at(monitor, translation({0.02, 0.03, 0.01 + half + kGap}));
@@ -48,7 +50,7 @@ TEST(SurfacePair, InAClosedCavityItIsClear) {
     return cavity;
   }());
   BodyDescription housing = body("housing", meshShape(hollow));
-  housing.geometry.push_back({Primitive(Box{{0.05, 0.05, 0.05}}), translation({0, 0, 0.4}), "lid", false});
+  housing.geometry.push_back({Primitive(Box::fromSize({0.1, 0.1, 0.1})), translation({0, 0, 0.4}), "lid", false});
   for (const double cell : {16.0, 64.0}) {
     BodyOptions options = coarse();
     options.field.cells = static_cast<int>(cell);
@@ -76,8 +78,9 @@ TEST(SurfacePair, InAClosedCavityItIsClear) {
 /// Also a tank of 50 m, whose sides are chords.
 TEST(SurfacePair, LargeCylindersKeepMaxError) {
   for (const double radius : {0.5, 5.0, 25.0}) {
-    const auto scene =
-        build({body("tank", Primitive(Cylinder{radius, 1.0})), body("ball", Primitive(Sphere{0.1}))}, fine(0.2));
+    const auto scene = build(
+        {body("tank", Primitive(Cylinder::fromRadiusAndLength(radius, 2.0))), body("ball", Primitive(Sphere{0.1}))},
+        fine(0.2));
     Monitor monitor(scene, soft());
     for (const double angle : {0.0, 0.001, 1.234}) {
       const auto beside = [&](double gap) {
@@ -93,9 +96,9 @@ TEST(SurfacePair, LargeCylindersKeepMaxError) {
 /// sides, for every max_error.
 TEST(SurfacePair, WhatMayStayOpenFollowsMaxError) {
   constexpr double kHalf = 0.1, kTop = 0.01;
-  const auto scene =
-      build({body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
-            coarse());
+  const auto scene = build({body("slab", Primitive(Box::fromSize({1.0, 1.0, 2.0 * kTop}))),
+                            body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+                           coarse());
   Random random(3);
   for (const double max_error : {1e-5, 1e-4, 1e-3, 1e-2}) {
     MonitorOptions options = soft();
@@ -135,9 +138,9 @@ TEST(SurfacePair, WhatGrazesByFarLessThanMaxErrorIsDecided) {
   constexpr double kRadius = 0.05, kHalf = 0.1, kTop = 0.01;
   const auto balls =
       build({body("ball", Primitive(Sphere{kRadius})), body("other", Primitive(Sphere{kRadius}))}, coarse());
-  const auto cube =
-      build({body("slab", Primitive(Box{{0.5, 0.5, kTop}})), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
-            coarse());
+  const auto cube = build({body("slab", Primitive(Box::fromSize({1.0, 1.0, 2.0 * kTop}))),
+                           body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
+                          coarse());
   Monitor of_balls(balls, soft()), of_cube(cube, soft());
   Random random(4);
   const auto verdict = [](Monitor& monitor, const Isometry3d& from, const Isometry3d& to) {
@@ -172,7 +175,7 @@ TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
     cracked.triangles.emplace_back(first, first + 1, first + 2);
   }
   const auto scene =
-      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("cracked", meshShape(cracked))}, coarse());
+      build({body("slab", Primitive(Box::fromSize({0.6, 0.6, 0.02}))), body("cracked", meshShape(cracked))}, coarse());
   Monitor monitor(scene, soft());
   EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf + kGap})).verdict, Verdict::kClear);
   EXPECT_EQ(at(monitor, translation({0.02, 0.03, 0.01 + kHalf - kGap})).verdict, Verdict::kContact);
@@ -180,10 +183,10 @@ TEST(SurfacePair, TellsATenthOfAMillimetreThroughCracks) {
 
 /// If contacts are not requested, verdicts are the same, and a crossing has a time and a position.
 TEST(SurfacePair, VerdictsAloneAreTheSame) {
-  const auto scene =
-      build({body("slab", Primitive(Box{{0.3, 0.3, 0.01}})), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))),
-             body("ball", Primitive(Sphere{0.04})), body("drum", Primitive(Cylinder{0.03, 0.05}))},
-            coarse());
+  const auto scene = build(
+      {body("slab", Primitive(Box::fromSize({0.6, 0.6, 0.02}))), body("hand", meshShape(boxMesh({0.03, 0.04, 0.05}))),
+       body("ball", Primitive(Sphere{0.04})), body("drum", Primitive(Cylinder::fromRadiusAndLength(0.03, 0.1)))},
+      coarse());
   Monitor all(scene, soft()), verdicts(scene, soft());
   CycleRequest alone;
   alone.wrenches = alone.contacts = false;
@@ -245,7 +248,7 @@ TEST(SurfacePair, WhatIsSaidToBeVoxelsAndIsNotIsNotChecked) {
 /// Bricks whose sides are flush: no edge of one pierces a face of the other.
 TEST(SurfacePair, FlushBricksInEachOtherAreInContact) {
   for (const bool mesh : {false, true}) {
-    const Primitive box = Box{{0.1, 0.1, 0.1}};
+    const Primitive box = Box::fromSize({0.2, 0.2, 0.2});
     const Shape shape = mesh ? meshShape(boxMesh({0.1, 0.1, 0.1})) : Shape(box);
     const auto scene = build({body("a", shape), body("b", shape)}, coarse());
     const auto at = [&](double height) {
@@ -290,8 +293,8 @@ TriangleMesh channel(double half_length, double half_width, double height, doubl
 TEST(SurfacePair, AThinPartInARecessOfALargeLinkIsClear) {
   const TriangleMesh link = channel(1.0, 0.15, 0.3, 0.02);
   ASSERT_TRUE(isClosed(link));
-  const auto scene =
-      build({body("link", meshShape(link)), body("plate", Primitive(Box{{0.05, 0.05, 0.002}}))}, optionsForContacts());
+  const auto scene = build({body("link", meshShape(link)), body("plate", Primitive(Box::fromSize({0.1, 0.1, 0.004})))},
+                           optionsForContacts());
   Monitor monitor(scene, {});
   const PairResult above = at(monitor, translation({0.1, 0.0, 0.025}));
   EXPECT_EQ(above.verdict, Verdict::kClear) << above.error.total();
@@ -302,7 +305,7 @@ TEST(SurfacePair, AThinPartInARecessOfALargeLinkIsClear) {
 
 /// The nearest triangles of the last query are far from those of the next.
 TEST(SurfacePair, AJumpDoesNotLeaveAClearPairUncertain) {
-  const Shape can = Primitive(Cylinder{0.05, 0.1});
+  const Shape can = Primitive(Cylinder::fromRadiusAndLength(0.05, 0.2));
   const auto scene = build({body("a", can), body("b", can)}, optionsForContacts());
   const Isometry3d rest = Isometry3d::Identity(), beside = pose({0.105, 0.0, 0.0}, 0.6, {1, 0, 0});  // 5 mm apart
   Random random(3);

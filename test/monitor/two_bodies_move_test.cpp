@@ -44,8 +44,9 @@ TEST(TwoBodiesMove, HandsThatMeetHalfwayAreFound) {
 
 /// The same arms side by side: their screw motions in the world cross, a screw of their relative pose does not.
 TEST(TwoBodiesMove, ArmsThatCrossBetweenTheirPosesAreNotClear) {
-  const auto scene = build(
-      {body("left", Primitive(Box{{0.4, 0.02, 0.02}})), body("right", Primitive(Box{{0.4, 0.02, 0.02}}))}, fine(0.004));
+  const auto scene = build({body("left", Primitive(Box::fromSize({0.8, 0.04, 0.04}))),
+                            body("right", Primitive(Box::fromSize({0.8, 0.04, 0.04})))},
+                           fine(0.004));
   int met = 0;
   for (int i = 0; i < 40; ++i) {
     // Both swing through: what they do in between is not visible in either pose.
@@ -67,9 +68,9 @@ TEST(TwoBodiesMove, ArmsThatCrossBetweenTheirPosesAreNotClear) {
 
 /// Links that rotate by +2 and -2 rad about one axis rotate by 4 rad relative to each other, not by 2.28 in reverse.
 TEST(TwoBodiesMove, RelativeTurnsBeyondHalfARevolutionAreNotTakenTheShortWay) {
-  const auto scene =
-      build({body("plate", Primitive(Box{{0.05, 0.05, 0.05}})), body("rod", Primitive(Box{{0.05, 0.05, 0.05}}))},
-            fine(0.005));
+  const auto scene = build({body("plate", Primitive(Box::fromSize({0.1, 0.1, 0.1}))),
+                            body("rod", Primitive(Box::fromSize({0.1, 0.1, 0.1})))},
+                           fine(0.005));
   // Both on a circle of 0.5 m, exchanging places: they meet halfway through 4 rad, but would not within 2.28.
   const auto on_circle = [](double angle) {
     return Isometry3d(arm(Vector3d::Zero(), angle) * translation({0.5, 0.0, 0.0}));
@@ -100,8 +101,8 @@ TEST(TwoBodiesMove, BodiesOnOneMovingBaseAreSkippedAsIfTheyStood) {
 
 /// Both on one rotating base, so that they move little relative to each other: their contact rotates with them.
 TEST(TwoBodiesMove, AContactIsWhereTheBodiesAreInTheWorld) {
-  const auto scene =
-      build({body("plate", Primitive(Box{{0.2, 0.2, 0.02}})), body("ball", Primitive(Sphere{0.1}))}, fine(0.01));
+  const auto scene = build(
+      {body("plate", Primitive(Box::fromSize({0.4, 0.4, 0.04}))), body("ball", Primitive(Sphere{0.1}))}, fine(0.01));
   const auto base = [](double s) { return pose(Vector3d::Zero(), 2.0 * s, Vector3d::UnitZ()); };
   const auto ball = [&](double s) { return Isometry3d(base(s) * translation({1.0, 0.0, 0.11})); };
   const auto plate = [&](double s) { return Isometry3d(base(s) * translation({1.0, 0.0, 0.0})); };
@@ -149,13 +150,14 @@ TEST(WhollyInside, AVoxelInTheMiddleOfALinkIsAContact) {
     TriangleMesh map;
     for (int i = 0; i < voxels; ++i) {  // all but the last one far from the link
       const Vector3d at(i + 1 < voxels ? 3.0 + 0.2 * i : 0.0, 0.0, 0.0);
-      map = merged(map, transformed(tessellate(Primitive(Box{Vector3d::Constant(0.025)}), 0.1), translation(at)));
+      map = merged(map,
+                   transformed(tessellate(Primitive(Box::fromSize(Vector3d::Constant(0.05))), 0.1), translation(at)));
     }
     BodyDescription octomap = body("octomap", meshShape(map), true);
     octomap.geometry[0].watertight_voxels = true;
     octomap.geometry[0].cell_size = 0.0125;
     for (const bool mesh : {false, true}) {
-      const Primitive box = Box{{0.2, 0.2, 0.2}};
+      const Primitive box = Box::fromSize({0.4, 0.4, 0.4});
       BodyOptions options = fine(0.01);
       const auto scene = build({body("link", mesh ? meshShape(tessellate(box, 0.01)) : Shape(box)), octomap}, options);
       for (const double way : {0.0, 0.12}) {

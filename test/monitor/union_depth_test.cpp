@@ -21,7 +21,8 @@ BodyDescription bodyOf(const std::string& name, const std::vector<OrientedBox>& 
   BodyDescription all;
   all.name = all.frame = name;
   for (const OrientedBox& box : boxes) {
-    const Shape shape = as == As::kMeshes ? meshShape(boxMesh(box.half_size)) : Shape(Primitive(Box{box.half_size}));
+    const Shape shape =
+        as == As::kMeshes ? meshShape(boxMesh(box.half_size)) : Shape(Primitive(Box::fromSize(2.0 * box.half_size)));
     all.geometry.push_back({shape, box.X_WB, name});
   }
   return all;
@@ -98,7 +99,7 @@ TEST(UnionDepth, APointBesideASeam) {
 /// A half-space and a post on it have no box; the way out is along the normal, or none is known.
 TEST(UnionDepth, AHalfSpaceWithAPost) {
   BodyDescription all = body("ground", ground());
-  all.geometry.push_back({Primitive(Box{{0.1, 0.1, 0.5}}), translation({0, 0, 0.5}), "post"});
+  all.geometry.push_back({Primitive(Box::fromSize({0.2, 0.2, 1.0})), translation({0, 0, 0.5}), "post"});
   const SceneDescription description{{all}, {}};
   NearestBodySearch search(build(description), std::make_shared<const SceneDescription>(description));
   search.prepare(0);
@@ -118,7 +119,7 @@ TEST(UnionDepth, ABladeAtASeam) {
   options.exact_depths = true;
   for (const As as : {As::kPrimitives, As::kMeshes}) {
     const auto scene =
-        build({bodyOf("block", halves, as), body("blade", Primitive(Box{{0.0002, 0.025, 0.025}}))}, options);
+        build({bodyOf("block", halves, as), body("blade", Primitive(Box::fromSize({0.0004, 0.05, 0.05})))}, options);
     for (const Refinement refine : {Refinement::kNone, Refinement::kDeepest})
       for (const double x : {0.0, 0.001, 0.02}) {
         Monitor monitor(scene, soft());

@@ -141,7 +141,7 @@ TEST(VoxelMask, WhatIsInAJawCounts) {
 
 /// An object that is attached while a map is empty: nothing says that a map will come.
 TEST(VoxelMask, ABodyWithoutItsSurfaceHidesNoMore) {
-  const SceneDescription description{{ring(), body("table", Primitive(Box{Vector3d(0.1, 0.1, 0.1)}), true)}, {}};
+  const SceneDescription description{{ring(), body("table", Primitive(Box::fromSize({0.2, 0.2, 0.2})), true)}, {}};
   const auto scene = build(description, optionsForContacts());
   ASSERT_FALSE(scene->bodies[0].surface);
   const auto mask = maskOf(scene->bodies[0], description.bodies[0], Isometry3d::Identity());

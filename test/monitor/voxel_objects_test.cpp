@@ -236,7 +236,7 @@ TEST(VoxelObjects, TheMasksOfBodiesAreCertain) {
   };
   bin.triangles.erase(std::remove_if(bin.triangles.begin(), bin.triangles.end(), is_lid), bin.triangles.end());
   SceneDescription description{
-      {body("box", Primitive(Box{kHalf}), true), body("mesh", meshShape(boxMesh(kHalf)), true),
+      {body("box", Primitive(Box::fromSize(2.0 * kHalf)), true), body("mesh", meshShape(boxMesh(kHalf)), true),
        body("bin", meshShape(bin), true), body("floor", Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), true),
        body("ball", Primitive(Sphere{0.05}))},
       {}};

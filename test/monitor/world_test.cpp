@@ -29,7 +29,7 @@ ScenePlan planOf(const SceneDescription& description, const BodyOptions& options
 class ChangingWorld {
  public:
   explicit ChangingWorld(unsigned seed) : random_(seed) {
-    links_ = {body("link0", Primitive(Sphere{0.1})), body("link1", Primitive(Box{{0.1, 0.06, 0.05}})),
+    links_ = {body("link0", Primitive(Sphere{0.1})), body("link1", Primitive(Box::fromSize({0.2, 0.12, 0.1}))),
               body("link2", meshShape(torusMesh(0.12, 0.04, 16, 8)))};
     description_.bodies = links_;
     for (const char* link : {"link0", "link1", "link2"})
@@ -82,8 +82,8 @@ class ChangingWorld {
     const int kind = int(uniform(random_, 0.0, 4.0));
     const std::string name = "object" + std::to_string(++objects_);
     const Shape shape = kind == 0   ? Shape(Primitive(Sphere{0.08}))
-                        : kind == 1 ? Shape(Primitive(Box{{0.05, 0.08, 0.1}}))
-                        : kind == 2 ? Shape(Primitive(Cylinder{0.05, 0.1}))
+                        : kind == 1 ? Shape(Primitive(Box::fromSize({0.1, 0.16, 0.2})))
+                        : kind == 2 ? Shape(Primitive(Cylinder::fromRadiusAndLength(0.05, 0.2)))
                                     : meshShape(torusMesh(0.1, 0.03, 12, 8));
     BodyDescription made = body(name, shape, true);
     made.X_frame_B = place();
@@ -245,7 +245,7 @@ TEST(World, ALinkInsideWhatAppearsIsSeen) {
     Monitor monitor(editor.next(description)->scene, soft());
     monitor.run(linkMotion(description, {0.69, 0, 0}, {0.7, 0, 0}), {});
     const CycleMotion before_adoption = linkMotion(description, {0.7, 0, 0}, {last, 0, 0});
-    description.bodies.push_back(body("box", Primitive(Box{{0.5, 0.5, 0.5}}), true));
+    description.bodies.push_back(body("box", Primitive(Box::fromSize({1.0, 1.0, 1.0})), true));
     const std::shared_ptr<const Scene> scene = editor.next(description)->scene;
     const CycleMotion likely = linkMotion(description, {0.7, 0, 0}, {0.7, 0, 0});
     const auto change = monitor.prepare(scene, &likely);
@@ -264,11 +264,12 @@ TEST(World, ALinkInsideWhatAppearsIsSeen) {
 TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   const BodyOptions options = coarse();
   SceneDescription description{
-      {body("arm", meshShape(torusMesh(0.12, 0.04, 16, 8))), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+      {body("arm", meshShape(torusMesh(0.12, 0.04, 16, 8))), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)},
+      {}};
   WorldEditor editor(options);
   const auto first = editor.next(description);
   EXPECT_EQ(first->version, 1U);
-  description.bodies.push_back(body("box", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  description.bodies.push_back(body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})), true));
   const auto second = editor.next(description);
   EXPECT_EQ(second->prepared, 1);
   EXPECT_EQ(second->scene->bodies.shared(0), first->scene->bodies.shared(0));
@@ -280,8 +281,8 @@ TEST(World, KeepsIdsAndBodiesThatDoNotChange) {
   EXPECT_EQ(third->body_ids[1], second->body_ids[2]);
   EXPECT_EQ(third->scene->bodies.shared(1), second->scene->bodies.shared(2));
   // The wall returns, and another box of the same geometry: nothing is built again.
-  description.bodies.push_back(body("wall", Primitive(Box{{1, 0.1, 1}}), true));
-  description.bodies.push_back(body("box2", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  description.bodies.push_back(body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true));
+  description.bodies.push_back(body("box2", Primitive(Box::fromSize({0.2, 0.2, 0.2})), true));
   const auto fourth = editor.next(description);
   EXPECT_EQ(fourth->prepared, 0);
   EXPECT_EQ(fourth->shared, 2);
@@ -307,12 +308,12 @@ TEST(World, WhatBodiesShareCountsOnce) {
 }
 
 TEST(World, AChangeThatFailsChangesNothing) {
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
-                               {}};
+  SceneDescription description{
+      {body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)}, {}};
   WorldEditor editor(coarse());
   editor.next(description);
   SceneDescription bad = description;
-  bad.bodies.push_back(body("flat", Primitive(Box{{0.1, 0.0, 0.1}}), true));
+  bad.bodies.push_back(body("flat", Primitive(Box::fromSize({0.2, 0.0, 0.2})), true));
   EXPECT_THROW(editor.next(bad), std::invalid_argument);
   bad.bodies.back() = body("wall", Primitive(Sphere{0.1}), true);
   EXPECT_THROW(editor.next(bad), std::invalid_argument);
@@ -321,13 +322,13 @@ TEST(World, AChangeThatFailsChangesNothing) {
 
 /// While a request's body is built, a map's version can be made; the request then goes on top of it.
 TEST(World, AVersionIsMadeWhileBodiesOfAnotherAreBuilt) {
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
-                               {}};
+  SceneDescription description{
+      {body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)}, {}};
   WorldEditor editor(coarse());
   editor.next(description);
   SceneDescription with_part = description, with_map = description;
   with_part.bodies.push_back(body("part", meshShape(torusMesh(0.12, 0.04, 16, 8)), true));
-  with_map.bodies.push_back(body("tile", Primitive(Box{{0.2, 0.2, 0.2}}), true));
+  with_map.bodies.push_back(body("tile", Primitive(Box::fromSize({0.4, 0.4, 0.4})), true));
   std::shared_ptr<const WorldSnapshot> map;
   const auto parts = editor.prepare(with_part, [&](const std::string&) {
     if (!map) std::thread([&] { map = editor.next(with_map); }).join();
@@ -344,8 +345,8 @@ TEST(World, AVersionIsMadeWhileBodiesOfAnotherAreBuilt) {
 }
 
 TEST(World, NothingIsMadeOfBodiesThatAreNotBuilt) {
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
-                               {}};
+  SceneDescription description{
+      {body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)}, {}};
   WorldEditor editor(coarse());
   const auto parts = editor.prepare(description);
   description.bodies.push_back(body("part", meshShape(torusMesh(0.12, 0.04, 16, 8)), true));
@@ -355,7 +356,8 @@ TEST(World, NothingIsMadeOfBodiesThatAreNotBuilt) {
 
 TEST(World, WarnsOfBodiesThatAreMade) {
   const TriangleMesh torus = torusMesh(0.12, 0.04, 16, 8);
-  SceneDescription description{{body("arm", meshShape(torus)), body("wall", Primitive(Box{{1, 0.1, 1}}), true)}, {}};
+  SceneDescription description{
+      {body("arm", meshShape(torus)), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)}, {}};
   BodyOptions options = coarse();
   options.shell.spacing = 10.0;
   WorldEditor editor(options);
@@ -407,10 +409,10 @@ TEST(World, LinksAreKnownToALiveMapBesideNothingElse) {
 
 TEST(World, AMonitorRefusesAChangeOfAnotherScene) {
   WorldEditor editor(coarse());
-  SceneDescription description{{body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box{{1, 0.1, 1}}), true)},
-                               {}};
+  SceneDescription description{
+      {body("arm", Primitive(Sphere{0.1})), body("wall", Primitive(Box::fromSize({2, 0.2, 2})), true)}, {}};
   const auto first = editor.next(description);
-  description.bodies.push_back(body("box", Primitive(Box{{0.1, 0.1, 0.1}}), true));
+  description.bodies.push_back(body("box", Primitive(Box::fromSize({0.2, 0.2, 0.2})), true));
   const auto second = editor.next(description);
   Monitor monitor(first->scene, {});
   const auto change = monitor.prepare(second->scene), late = monitor.prepare(second->scene);

@@ -234,7 +234,7 @@ TEST(DeepestPoint, OfABallIsWhereItFacesIn) {
 }
 
 TEST(DeepestPoint, OfPrimitivesIsExact) {
-  const DistanceField field(Primitive(Box{Vector3d(0.05, 0.04, 0.03)}));
+  const DistanceField field(Primitive(Box::fromSize({0.1, 0.08, 0.06})));
   const std::vector<SolidPart> solid{{Isometry3d::Identity(), &field, nullptr}};
   const TriangleMesh ball = test::icosphere(0.02, 3);
   const BoxTree tree = treeOf(ball);

@@ -13,7 +13,7 @@ namespace sdf_ccd::impact_window_test {
 using test::Random;
 
 const Vector3d kHalf(0.1, 0.075, 0.05);
-const DistanceField kBox{Primitive(Box{kHalf})};
+const DistanceField kBox{Primitive(Box::fromSize(2.0 * kHalf))};
 
 std::optional<double> firstContact(const Segment& segment) {
   const Intervals found = segmentIntervals(kBox, segment, {0.0, SegmentMode::kFirst});

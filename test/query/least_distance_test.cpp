@@ -112,7 +112,8 @@ const Vector3d kHalf(0.1, 0.075, 0.05);
 
 /// Flat, with edges inside and out.
 Tally box(const FieldOptions& options) {
-  return expectHonest(test::boxMesh(kHalf), options, [](const Vector3d& p) { return signedDistance(Box{kHalf}, p); });
+  return expectHonest(test::boxMesh(kHalf), options,
+                      [](const Vector3d& p) { return signedDistance(Box::fromSize(2.0 * kHalf), p); });
 }
 
 /// Curved both ways, with a hole.
@@ -143,7 +144,8 @@ TEST(LeastDistance, HoldsTheDepthsOfAdaptiveFields) {
 }
 
 TEST(LeastDistance, OfPrimitivesIsExact) {
-  const std::vector<Primitive> primitives = {Sphere{0.1}, Box{kHalf}, Cylinder{0.08, 0.05},
+  const std::vector<Primitive> primitives = {Sphere{0.1}, Box::fromSize(2.0 * kHalf),
+                                             Cylinder::fromRadiusAndLength(0.08, 0.1),
                                              HalfSpace{Vector3d(0.6, 0.0, 0.8), 0.01}};
   Random random(3);
   for (const Primitive& primitive : primitives) {

@@ -20,11 +20,11 @@ struct Distance {
   }
   Real operator()(const Sphere& sphere) const { return p.norm() - sphere.radius; }
   Real operator()(const Box& box) const {
-    const Vector3l q = p.cwiseAbs() - box.half_size.cast<Real>();
+    const Vector3l q = p.cwiseAbs() - box.halfSize().cast<Real>();
     return q.cwiseMax(0.0L).norm() + std::min(q.maxCoeff(), 0.0L);
   }
   Real operator()(const Cylinder& cylinder) const {
-    return corner(std::hypot(p.x(), p.y()) - cylinder.radius, std::abs(p.z()) - cylinder.half_length);
+    return corner(std::hypot(p.x(), p.y()) - cylinder.radius, std::abs(p.z()) - cylinder.halfLength());
   }
   Real operator()(const HalfSpace& plane) const { return plane.normal.cast<Real>().dot(p) - plane.offset; }
 };
@@ -42,11 +42,11 @@ TEST(PrimitiveSpheres, SidesHoldWithinRounding) {
   for (int trial = 0; trial < 40000; ++trial) {
     const double size = power(-4.0, 3.0);
     const HalfSpace plane{test::direction(random), (trial % 8 ? 0.0 : 1e6) * test::uniform(random, -1.0, 1.0)};
-    const Primitive primitive = trial % 4 == 0   ? Primitive(plane)
-                                : trial % 4 == 1 ? Primitive(Sphere{size})
-                                : trial % 4 == 2
-                                    ? Primitive(Box{size * Vector3d(1.0, power(-3.0, 0.0), power(-3.0, 0.0))})
-                                    : Primitive(Cylinder{size, size * power(-3.0, 3.0)});
+    const Primitive primitive =
+        trial % 4 == 0   ? Primitive(plane)
+        : trial % 4 == 1 ? Primitive(Sphere{size})
+        : trial % 4 == 2 ? Primitive(Box::fromSize(2.0 * size * Vector3d(1.0, power(-3.0, 0.0), power(-3.0, 0.0))))
+                         : Primitive(Cylinder::fromRadiusAndLength(size, 2.0 * size * power(-3.0, 3.0)));
     const BoundingBall shell{(trial % 3 ? 0.0 : power(-2.0, 6.0)) * test::direction(random), size * power(-3.0, 1.0)};
     // A point of the shell starts at a point of the surface, within some roundings of it.
     Vector3d on = 3.0 * size * test::direction(random);

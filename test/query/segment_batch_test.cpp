@@ -12,7 +12,7 @@ using namespace test;
 
 TEST(SegmentBatch, PrimitivesGiveTheSingleQuerysIntervals) {
   for (const DistanceField& field :
-       {DistanceField(Primitive(Sphere{0.3})), DistanceField(Primitive(Box{{0.2, 0.1, 0.3}}))}) {
+       {DistanceField(Primitive(Sphere{0.3})), DistanceField(Primitive(Box::fromSize({0.4, 0.2, 0.6})))}) {
     const AlignedBox3d box{Vector3d::Constant(-0.4), Vector3d::Constant(0.4)};
     Random random(3);
     std::vector<Segment> segments;

@@ -35,7 +35,8 @@ TEST(SegmentQuery, GrazingSegmentGivesOneInterval) {
 
 TEST(SegmentQuery, PrimitivesEqualDenseSampling) {
   Random random(6);
-  const std::vector<Primitive> solids{Sphere{0.3}, Box{{0.1, 0.3, 0.2}}, Cylinder{0.2, 0.3},
+  const std::vector<Primitive> solids{Sphere{0.3}, Box::fromSize({0.2, 0.6, 0.4}),
+                                      Cylinder::fromRadiusAndLength(0.2, 0.6),
                                       HalfSpace{Vector3d(1, 2, -1).normalized(), 0.1}};
   int found = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -125,8 +126,9 @@ std::vector<DistanceField> fieldsOfAllKinds() {
   even.cells = 32;
   adaptive.max_error = 1e-3;
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 32, 16);
-  return {DistanceField{Primitive(Sphere{0.3})}, DistanceField{Primitive(Box{{0.1, 0.3, 0.2}})},
-          DistanceField{Primitive(Cylinder{0.2, 0.3})}, buildField(torus, even), buildField(torus, adaptive)};
+  return {DistanceField{Primitive(Sphere{0.3})}, DistanceField{Primitive(Box::fromSize({0.2, 0.6, 0.4}))},
+          DistanceField{Primitive(Cylinder::fromRadiusAndLength(0.2, 0.6))}, buildField(torus, even),
+          buildField(torus, adaptive)};
 }
 
 /// The documented accuracy holds and is not too pessimistic.
@@ -245,7 +247,7 @@ TEST(SegmentQuery, MayTouchNeverDeniesATouch) {
 
 TEST(SegmentQuery, OneHundredMetresPerSecondThroughAPlateOfOneMillimetre) {
   // A cycle of 1/30 s; the plate is crossed within 10 µs of it.
-  const DistanceField plate{Primitive(Box{{0.5, 0.5, 0.0005}})};
+  const DistanceField plate{Primitive(Box::fromSize({1.0, 1.0, 0.001}))};
   const Intervals hit = segmentIntervals(plate, {{0, 0, 1.0}, {0, 0, 1.0 - 100.0 / 30}});
   ASSERT_EQ(hit.size(), 1U);
   EXPECT_NEAR(hit[0].exit - hit[0].enter, 0.001 / (100.0 / 30), 1e-12);

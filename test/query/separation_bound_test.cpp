@@ -100,8 +100,8 @@ TEST(Separation, BoundsOfDenseSurfacesAreTrue) {
   shapes.trees.clear();
   shapes.trees.push_back(treeOf(test::torusMesh(0.1, 0.03, 20, 10)));
   shapes.trees.push_back(treeOf(test::icosphere(0.08, 2)));
-  shapes.trees.push_back(treeOf(tessellate(Cylinder{0.05, 0.01}, 1e-4)));
-  shapes.trees.push_back(treeOf(merged(tessellate(Cylinder{0.05, 0.01}, 1e-3),
+  shapes.trees.push_back(treeOf(tessellate(Cylinder::fromRadiusAndLength(0.05, 0.02), 1e-4)));
+  shapes.trees.push_back(treeOf(merged(tessellate(Cylinder::fromRadiusAndLength(0.05, 0.02), 1e-3),
                                        test::translated(test::boxMesh({0.01, 0.02, 0.06}), {0.07, 0, 0.03})),
                                 2e-3));
   Random random(11);

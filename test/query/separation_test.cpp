@@ -134,8 +134,9 @@ struct JointParts {
 };
 
 std::vector<JointParts> jointParts(double radius, double gap) {
-  const TriangleMesh disc = tessellate(Cylinder{radius, 0.2 * radius}, 1e-4 * radius),
-                     thin = tessellate(Cylinder{radius, 0.2 * radius - gap}, 1e-4 * radius);
+  const TriangleMesh disc = tessellate(Cylinder::fromRadiusAndLength(radius, 2.0 * 0.2 * radius), 1e-4 * radius),
+                     thin =
+                         tessellate(Cylinder::fromRadiusAndLength(radius, 2.0 * (0.2 * radius - gap)), 1e-4 * radius);
   const TriangleMesh bracket =
       test::translated(test::boxMesh({0.2 * radius, 0.4 * radius, radius}), {1.3 * radius, 0, 0.5 * radius});
   const auto above = [&](double z) { return test::translated(disc, {0, 0, z}); };
@@ -168,7 +169,7 @@ TEST(Separation, PartsOfJointsThatTurnOnEachOtherAreApart) {
 /// The same of faces alone, closer and up to nearly half a revolution.
 TEST(Separation, FacesMayTurnByMuch) {
   for (const double radius : {0.02, 0.1, 0.5}) {
-    const BoxTree disc = treeOf(tessellate(Cylinder{radius, 0.05}, 1e-4 * radius));
+    const BoxTree disc = treeOf(tessellate(Cylinder::fromRadiusAndLength(radius, 0.1), 1e-4 * radius));
     for (const double gap : {1e-4, 5e-4})
       for (const double turn : {0.1, 1.0, 3.0})
         for (const double aside : {0.0, 0.3}) {  // of the radius
@@ -185,7 +186,7 @@ TEST(Separation, FacesMayTurnByMuch) {
 
 /// Faces at rest that are closer than single precision tells.
 TEST(Separation, FacesAMicrometreApartTakeFewTests) {
-  const BoxTree disc = treeOf(tessellate(Cylinder{0.1, 0.05}, 1e-5));
+  const BoxTree disc = treeOf(tessellate(Cylinder::fromRadiusAndLength(0.1, 0.1), 1e-5));
   Isometry3d above = Isometry3d::Identity();
   above.translation().z() = 0.1 + 1e-6;
   const Isometry3d at_rest = Isometry3d::Identity();

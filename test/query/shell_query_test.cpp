@@ -82,7 +82,8 @@ std::vector<Scene> scenes() {
   const TriangleMesh torus = test::torusMesh(0.2, 0.08, 48, 24);
   add(buildField(torus, field), sampleSurface(torus, shell));
   add(buildField(test::boxMesh({0.2, 0.2, 0.004}), field), sampleSurface(Primitive(Sphere{0.1}), shell));
-  add(DistanceField(Primitive(Box{{0.2, 0.1, 0.0005}})), sampleSurface(Primitive(Cylinder{0.05, 0.1}), shell));
+  add(DistanceField(Primitive(Box::fromSize({0.4, 0.2, 0.001}))),
+      sampleSurface(Primitive(Cylinder::fromRadiusAndLength(0.05, 0.2)), shell));
   return all;
 }
 
@@ -336,7 +337,7 @@ TEST(ShellQuery, ClearanceIsATightLowerBound) {
 }
 
 TEST(ShellQuery, NodesWithoutPointsNeverHit) {
-  const DistanceField field{Primitive(Box{{0.2, 0.2, 0.2}})};
+  const DistanceField field{Primitive(Box::fromSize({0.4, 0.4, 0.4}))};
   PointShell shell;
   SphereTree tree;
   tree.nodes.emplace_back();  // at the body's centre

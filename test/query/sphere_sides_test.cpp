@@ -27,8 +27,8 @@ std::vector<DistanceField> buildFields() {
   add(torus, 48, 0.0);
   add(torus, 0, 4e-3);
   all.emplace_back(Sphere{0.15});
-  all.emplace_back(Box{{0.2, 0.1, 0.05}});
-  all.emplace_back(Cylinder{0.1, 0.2});
+  all.emplace_back(Box::fromSize({0.4, 0.2, 0.1}));
+  all.emplace_back(Cylinder::fromRadiusAndLength(0.1, 0.4));
   all.emplace_back(HalfSpace{Vector3d(1, 2, 3).normalized(), 0.05});
   return all;
 }

@@ -130,7 +130,7 @@ TEST(SurfaceDistance, SlabsHoldFarFromTheOrigin) {
 
 /// The end discs of two coaxial cylinders, as of wheels on one axle: all pairs of their triangles are as far apart.
 TEST(SurfaceDistance, FacesThatLieOppositeTakeNoLongerThanOthers) {
-  const BoxTree wheel = treeOf(tessellate(Cylinder{0.3, 0.05}, 2e-6), 0.0);
+  const BoxTree wheel = treeOf(tessellate(Cylinder::fromRadiusAndLength(0.3, 0.1), 2e-6), 0.0);
   SeparationMemory memory;
   for (const double tilt : {0.0, 1e-9, 1e-6}) {
     for (const double turn : {0.0, 0.3}) {
@@ -154,7 +154,7 @@ TEST(SurfaceDistance, FacesThatLieOppositeTakeNoLongerThanOthers) {
 /// Before anything is found the range is all that ends the search, and nothing within it may be left out: two wheels
 /// face each other at a small angle, and a single place is barely within range.
 TEST(SurfaceDistance, WhatIsBarelyWithinRangeIsFoundAmongManyThatAreNot) {
-  const BoxTree wheel = treeOf(tessellate(Cylinder{0.3, 0.05}, 2e-6), 0.0);
+  const BoxTree wheel = treeOf(tessellate(Cylinder::fromRadiusAndLength(0.3, 0.1), 2e-6), 0.0);
   SeparationMemory memory;
   for (const double tilt : {1e-8, 1e-7, 1e-6, 1e-5, 3e-5, 1e-4, 1e-3}) {
     for (const double beyond : {1e-8, 1e-7, 1e-6, 4e-6}) {

@@ -68,8 +68,9 @@ TEST_F(CheckMotionTest, BodiesInUnknownFramesAreNotChecked) {
 }
 
 TEST(PlanThrough, KeepsWhatIsNotKnownOfTheMotion) {
-  const auto scene = std::make_shared<const Scene>(makeScene(
-      {prepareBody("a", Box{{0.1, 0.1, 0.1}}, {5e-3, {}}), prepareBody("b", Box{{0.1, 0.1, 0.1}}, {5e-3, {}})}));
+  const auto scene =
+      std::make_shared<const Scene>(makeScene({prepareBody("a", Box::fromSize({0.2, 0.2, 0.2}), {5e-3, {}}),
+                                               prepareBody("b", Box::fromSize({0.2, 0.2, 0.2}), {5e-3, {}})}));
   const Isometry3d still = Isometry3d::Identity(), apart(Eigen::Translation3d(0.3, 0.0, 0.0));
   CycleMotion motion;
   motion.times = {0.0, 1.0};

@@ -27,9 +27,9 @@ TEST(DescribeRobot, LinksWithCollisionElementsAreBodies) {
   EXPECT_FALSE(body.is_world);
   ASSERT_EQ(body.geometry.size(), 3u);
   EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(body.geometry[0].shape)).radius, 0.2);
-  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body.geometry[1].shape)).half_size, Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body.geometry[1].shape)).size, Vector3d(2, 4, 6));
   EXPECT_EQ(body.geometry[1].X_BG.translation(), Vector3d(1, 2, 3));
-  EXPECT_EQ(std::get<Cylinder>(std::get<Primitive>(body.geometry[2].shape)).half_length, 1.5);
+  EXPECT_EQ(std::get<Cylinder>(std::get<Primitive>(body.geometry[2].shape)).length, 3.0);
   EXPECT_EQ(body.geometry[2].source, "cylinder");
   EXPECT_TRUE(described.warnings.empty());
 }

@@ -50,7 +50,7 @@ BodyDescription plane() {
   return body("below", ground(), true);
 }
 BodyDescription block() {
-  BodyDescription block = body("below", Primitive(Box{{1.5, 1.5, 0.5}}), true);
+  BodyDescription block = body("below", Primitive(Box::fromSize({3.0, 3.0, 1.0})), true);
   block.geometry[0].X_BG = translation({0, 0, -0.5});
   return block;
 }

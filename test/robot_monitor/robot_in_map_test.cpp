@@ -78,7 +78,7 @@ std::vector<Vector3d> surfacePoints(const BodyDescription& body, double spacing)
   std::vector<Vector3d> points;
   for (const GeometryDescription& geometry : body.geometry) {
     const auto* primitive = std::get_if<Primitive>(&geometry.shape);
-    const TriangleMesh mesh = primitive ? test::boxMesh(std::get<Box>(*primitive).half_size)
+    const TriangleMesh mesh = primitive ? test::boxMesh(std::get<Box>(*primitive).halfSize())
                                         : *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
     for (const Vector3i& t : mesh.triangles) {
       const Vector3d a = mesh.vertices[t[0]], u = mesh.vertices[t[1]] - a, v = mesh.vertices[t[2]] - a;

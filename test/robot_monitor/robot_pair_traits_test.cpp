@@ -31,8 +31,8 @@ PairTraits traitsOf(const test::Shape& forearm, const test::Shape& flange, doubl
 }
 
 TEST(RobotPairTraits, WhatTurnsInItselfKeepsItsDistance) {
-  const Primitive round = Cylinder{0.05, 0.1}, square = Box{{0.05, 0.05, 0.1}}, small = Cylinder{0.04, 0.01},
-                  slab = Box{{0.04, 0.02, 0.01}};
+  const Primitive round = Cylinder::fromRadiusAndLength(0.05, 0.2), square = Box::fromSize({0.1, 0.1, 0.2}),
+                  small = Cylinder::fromRadiusAndLength(0.04, 0.02), slab = Box::fromSize({0.08, 0.04, 0.02});
   EXPECT_TRUE(traitsOf(round, small, 0.0).is_constant);
   EXPECT_TRUE(traitsOf(round, slab, 0.0).is_constant);  // the forearm turns in itself, seen from the flange
   EXPECT_TRUE(traitsOf(square, small, 0.0).is_constant);
@@ -44,7 +44,8 @@ TEST(RobotPairTraits, WhatTurnsInItselfKeepsItsDistance) {
 }
 
 TEST(RobotPairTraits, PairsWithTheWorldAreNotOwn) {
-  const PairTraits traits = traitsOf(Cylinder{0.05, 0.1}, Cylinder{0.04, 0.01}, 0.0, {}, true);
+  const PairTraits traits =
+      traitsOf(Cylinder::fromRadiusAndLength(0.05, 0.2), Cylinder::fromRadiusAndLength(0.04, 0.02), 0.0, {}, true);
   EXPECT_FALSE(traits.is_own);
   EXPECT_FALSE(traits.is_constant);
   EXPECT_TRUE(std::isinf(traits.max_closing));
@@ -52,7 +53,7 @@ TEST(RobotPairTraits, PairsWithTheWorldAreNotOwn) {
 
 TEST(RobotPairTraits, WhatIsRigidlyJoinedKeepsItsDistance) {
   SceneDescription description{
-      {test::body("forearm", Box{{0.05, 0.05, 0.1}}), test::body("held", Box{{0.1, 0.1, 0.1}})}, {}};
+      {test::body("forearm", Box::fromSize({0.1, 0.1, 0.2})), test::body("held", Box::fromSize({0.2, 0.2, 0.2}))}, {}};
   description.bodies[1].frame = "tool";
   const auto robot = std::make_shared<const RobotModel>(R"(<robot name="r"><link name="forearm"/><link name="tool"/>
     <joint name="j" type="fixed"><parent link="forearm"/><child link="tool"/></joint></robot>)");
@@ -63,7 +64,7 @@ TEST(RobotPairTraits, WhatIsRigidlyJoinedKeepsItsDistance) {
 }
 
 TEST(RobotPairTraits, TheLastLimitThatMatchesCounts) {
-  const Primitive round = Cylinder{0.05, 0.1}, small = Cylinder{0.04, 0.01};
+  const Primitive round = Cylinder::fromRadiusAndLength(0.05, 0.2), small = Cylinder::fromRadiusAndLength(0.04, 0.02);
   EXPECT_FALSE(traitsOf(round, small, 0.0).stop_distance);
   EXPECT_EQ(traitsOf(round, small, 0.0, {{{"*", "*"}, 0.1}, {{"fl*", "forearm"}, 0.01}}).stop_distance, 0.01);
   EXPECT_EQ(traitsOf(round, small, 0.0, {{{"fl*", "forearm"}, 0.01}, {{"*", "*"}, 0.1}}).stop_distance, 0.1);

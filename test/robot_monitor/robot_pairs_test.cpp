@@ -104,7 +104,7 @@ BodyDescription worldBox(const std::string& name, const std::string& frame, cons
   body.X_frame_B.translation() = place;
   body.is_world = true;
   body.geometry.resize(1);
-  body.geometry[0].shape = Primitive(Box{half_size});
+  body.geometry[0].shape = Primitive(Box::fromSize(2.0 * half_size));
   return body;
 }
 

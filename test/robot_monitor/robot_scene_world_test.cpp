@@ -13,7 +13,8 @@ namespace sdf_ccd::robot_scene_world_test {
 using namespace test;
 
 TEST(RobotScene, TheRobotMovesAmongObjectsOfTheWorld) {
-  const WorldObject wall = {"wall", {}, Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0)), {{Box{{0.05, 0.1, 0.02}}}}};
+  const WorldObject wall = {
+      "wall", {}, Isometry3d(Eigen::Translation3d(0.8, 0.0, 0.0)), {{Box::fromSize({0.1, 0.2, 0.04})}}};
   const RobotScene scene = RobotScene::parse(kArm, {}, {wall});
   RobotTrajectory drive = swing(0.0, 0.0);
   drive.states[1].X_WR.translation().x() = 1.0;

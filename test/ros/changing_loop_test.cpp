@@ -16,7 +16,7 @@ class ChangingLoopTest : public MonitorLoopTest {
  protected:
   ChangingLoopTest() : editor_(fine(0.005)) {
     description_.bodies = {body("hand", Sphere{kRadius}), body("foot", Sphere{kRadius}),
-                           body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true)};
+                           body("plate", Box::fromSize({2.0 * kPlateHalf, 1.0, 1.0}), true)};
     plate().X_frame_B.translation().x() = kPlate;
     const ScenePlan plan = planScene(description_);
     MonitorParameters parameters;
@@ -69,7 +69,7 @@ TEST_F(ChangingLoopTest, WhatAppearsIsTestedInAdvance) {
   };
   for (int i = 0; i < 4; ++i) cycle(i);
   for (int i = 0; i < 20; ++i) {
-    description_.bodies.push_back(body("object" + std::to_string(i), Box{Vector3d(0.05, 0.02, 0.02)}, i % 2 == 0));
+    description_.bodies.push_back(body("object" + std::to_string(i), Box::fromSize({0.1, 0.04, 0.04}), i % 2 == 0));
     description_.bodies.back().frame = i % 2 == 0 ? "world" : "shelf";
     description_.bodies.back().X_frame_B = pose({0.1, 5.0 + 0.3 * i, 0.7}, 0.3 * i, {0, 0.6, 0.8});
   }

@@ -43,7 +43,7 @@ TEST_F(ChangingSceneAttachTest, AttachesWithOtherShapes) {
   attach.primitives[0].dimensions = {0.4, 0.4, 0.4};
   attach.pose.position.x = 0.25;
   apply(attach);
-  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.2, 0.2, 0.2));
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).size, Vector3d(0.4, 0.4, 0.4));
   EXPECT_EQ(body("box").frame, "tip");
   EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(0.25, 0, 0)) << "in the link's frame";
   attach.header.frame_id = "base";

@@ -32,7 +32,7 @@ class ChangingSceneCase : public ::testing::Test {
     WorldObject table;
     table.name = "table";
     table.X_frame_B.translation() = Vector3d(50, 0, 0);
-    table.shapes = {{Primitive(Box{Vector3d(0.3, 0.3, 0.3)})}};
+    table.shapes = {{Primitive(Box::fromSize({0.6, 0.6, 0.6}))}};
     parameters_.world.push_back(table);
     described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
     files_ = std::make_unique<RequestFiles>(std::vector<std::string>{folder_.string()},

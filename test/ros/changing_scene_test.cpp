@@ -23,7 +23,7 @@ TEST_F(ChangingSceneTest, AddsMovesAndRemoves) {
   apply(added);
   EXPECT_EQ(body("box").frame, "belt");
   EXPECT_TRUE(body("box").is_world);
-  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).size, Vector3d(0.2, 0.4, 0.6));
   EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
   EXPECT_EQ(reason("arm", "box"), "checked");
   SceneChange moved = change(SceneChange::MOVE);

@@ -63,7 +63,7 @@ TEST_F(CycleMessagesTest, ACheckThatFailsIsToldOfItsWholeTime) {
 TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
   constexpr double kAside = 0.2;  // of the object's origin from the link's, along y [m]
   BodyDescription held = body("held", Sphere{kRadius}),
-                  plate = body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
+                  plate = body("plate", Box::fromSize({2.0 * kPlateHalf, 1.0, 1.0}), true);
   held.frame = "hand";
   held.X_frame_B = translation({0.0, kAside, 0.0}) * pose({0, 0, 0}, 1.0, Vector3d(1, 2, 3).normalized());
   plate.geometry[0].X_BG.translation().x() = kPlate;

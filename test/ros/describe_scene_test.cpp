@@ -26,7 +26,7 @@ MonitorParameters cart() {
   WorldObject table;
   table.name = "table";
   table.frame = "elsewhere";
-  table.shapes = {{Primitive(Box{Vector3d(0.3, 0.3, 0.3)})}};
+  table.shapes = {{Primitive(Box::fromSize({0.6, 0.6, 0.6}))}};
   parameters.world.push_back(table);
   return parameters;
 }

@@ -23,15 +23,15 @@ constexpr double kSpeed = 2.0;    // at which it turns [rad/s]: 6000 m/s and 300
 
 /// The arm reaches forward, 0.5 m above the ground. A post stands 1 m to its left.
 std::shared_ptr<const Scene> scene() {
-  BodyDescription arm = body("arm", Box{Vector3d(0.5 * kArm, 0.02, 0.02)});
+  BodyDescription arm = body("arm", Box::fromSize({kArm, 0.04, 0.04}));
   arm.frame = "base";
   arm.geometry[0].X_BG = translation({0.5 * kArm, 0, 0.5});
   BodyDescription plane = body("ground", ground(), true);
-  BodyDescription post = body("post", Cylinder{0.02, 0.5}, true);
+  BodyDescription post = body("post", Cylinder::fromRadiusAndLength(0.02, 1.0), true);
   post.geometry[0].X_BG = translation({kFar, 0.9 * kArm, 0.5});  // as a mesh in coordinates of the map
-  BodyDescription table = body("table", Box{Vector3d(0.1, 0.1, 0.1)}, true);
+  BodyDescription table = body("table", Box::fromSize({0.2, 0.2, 0.2}), true);
   table.X_frame_B = translation({kFar, -3.0, 0.5});
-  BodyDescription tower = body("tower", Box{Vector3d(1.0, 1.0, 1.0)}, true);  // at the origin
+  BodyDescription tower = body("tower", Box::fromSize({2.0, 2.0, 2.0}), true);  // at the origin
   for (BodyDescription* object : {&plane, &post, &table, &tower}) object->frame = "map";
   return build({arm, plane, post, table, tower});
 }

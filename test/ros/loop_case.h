@@ -22,13 +22,14 @@ constexpr double kRadius = 0.05, kPlate = 0.5;     // of hand and foot, x of the
 constexpr double kPlateHalf = 0.005, kHigh = 2.0;  // the foot's x where it is far from everything [m]
 
 inline std::shared_ptr<const Scene> handFootAndPlate() {
-  static const auto built = build({body("hand", Sphere{kRadius}), body("foot", Sphere{kRadius}),
-                                   [] {
-                                     BodyDescription plate = body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
-                                     plate.geometry[0].X_BG.translation().x() = kPlate;
-                                     return plate;
-                                   }()},
-                                  fine(0.005));
+  static const auto built =
+      build({body("hand", Sphere{kRadius}), body("foot", Sphere{kRadius}),
+             [] {
+               BodyDescription plate = body("plate", Box::fromSize({2.0 * kPlateHalf, 1.0, 1.0}), true);
+               plate.geometry[0].X_BG.translation().x() = kPlate;
+               return plate;
+             }()},
+            fine(0.005));
   return built;
 }
 

@@ -236,7 +236,7 @@ TEST(ShapeMarker, AMeshIsNamedIfRvizFindsItByItsName) {
 TEST(WorldMarkers, AVoxelMapIsItsSurfaceVoxels) {
   // Two voxels of 0.5 m, one on top of the other, from (0.5, 0, 0) on.
   const double size = 0.5;
-  TriangleMesh surface = transformed(tessellate(Box{Vector3d::Constant(0.25)}, 0.01), at(0.75));
+  TriangleMesh surface = transformed(tessellate(Box::fromSize(Vector3d::Constant(0.5)), 0.01), at(0.75));
   surface = transformed(std::move(surface), Isometry3d(Eigen::Translation3d(0.0, 0.25, 0.25)));
   TriangleMesh upper = transformed(surface, Isometry3d(Eigen::Translation3d(0.0, 0.0, size)));
   SceneDescription scene;

@@ -27,7 +27,7 @@ class QueriesTest : public ::testing::Test {
     parameters.scene.shell.spacing = 0.004;
     WorldObject wall;
     wall.name = "wall";
-    wall.shapes = {{Primitive(Box{Vector3d(0.3, 0.3, 0.3)})}};
+    wall.shapes = {{Primitive(Box::fromSize({0.6, 0.6, 0.6}))}};
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));

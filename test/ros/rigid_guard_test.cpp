@@ -28,7 +28,7 @@ WorldObject box(const std::string& name, const std::string& frame, const Vector3
   WorldObject object;
   object.name = name;
   object.frame = frame;
-  object.shapes = {{Primitive(Box{half})}};
+  object.shapes = {{Primitive(Box::fromSize(2.0 * half))}};
   object.X_frame_B.translation() = at;
   return object;
 }

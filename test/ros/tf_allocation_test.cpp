@@ -118,7 +118,7 @@ class Gripper {
     parameters.scene.cache_directory.clear();
     parameters.scene.shell.spacing = 0.004;
     parameters.scene.exact_depths = true;
-    parameters.world = {object("wall", Box{{0.01, 0.3, 0.05}}, 0.146), object("ball", Sphere{0.05}, 1.0)};
+    parameters.world = {object("wall", Box::fromSize({0.02, 0.6, 0.1}), 0.146), object("ball", Sphere{0.05}, 1.0)};
     const PackageFinder packages = [](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); };
     described_ =
         describeScene(parameters, [&](const std::string& uri) { return loadLocalResource(uri, packages, ""); });

@@ -80,7 +80,7 @@ struct Publication {
 std::shared_ptr<const Scene> scene() {
   BodyDescription hand = test::body("hand", Sphere{kRadius});
   hand.geometry[0].X_BG.translation().x() = 0.2;
-  BodyDescription plate = test::body("plate", Box{Vector3d(kPlateHalf, 0.5, 0.5)}, true);
+  BodyDescription plate = test::body("plate", Box::fromSize({2.0 * kPlateHalf, 1.0, 1.0}), true);
   plate.geometry[0].X_BG.translation().x() = kPlate;
   static const auto built = test::build({hand, test::body("foot", Sphere{kRadius}), plate}, test::fine(0.004));
   return built;

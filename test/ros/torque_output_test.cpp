@@ -32,7 +32,8 @@ class TorqueOutputTest : public ::testing::Test {
     WorldObject wall;
     wall.name = "wall";
     wall.frame = "base";
-    wall.shapes = {{Primitive(Box{{0.5, 0.1, 0.5}}), Eigen::Translation3d(1.0, 0.195, 0.0) * Isometry3d::Identity()}};
+    wall.shapes = {
+        {Primitive(Box::fromSize({1.0, 0.2, 1.0})), Eigen::Translation3d(1.0, 0.195, 0.0) * Isometry3d::Identity()}};
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
     const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));

@@ -72,9 +72,9 @@ TEST(WorldFile, MoveitsText) {
   EXPECT_EQ(box.frame, "");
   EXPECT_TRUE((box.X_frame_B * Vector3d(1, 0, 0)).isApprox(Vector3d(0.5, 1, 0.25), 1e-6));
   ASSERT_EQ(box.shapes.size(), 2u);
-  EXPECT_TRUE(primitiveOf<Box>(box).half_size.isApprox(Vector3d(0.05, 0.1, 0.15)));
+  EXPECT_TRUE(primitiveOf<Box>(box).size.isApprox(Vector3d(0.1, 0.2, 0.3)));
   EXPECT_EQ(primitiveOf<Cylinder>(box, 1).radius, 0.05);
-  EXPECT_EQ(primitiveOf<Cylinder>(box, 1).half_length, 0.2);
+  EXPECT_EQ(primitiveOf<Cylinder>(box, 1).length, 0.4);
   EXPECT_EQ(box.shapes[1].X_BG.translation().z(), 0.35);
   const auto& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(objects[1].shapes.at(0).shape);
   EXPECT_EQ(mesh.vertices.size(), 3u);
@@ -171,9 +171,9 @@ world:
   EXPECT_EQ(can.X_frame_B.translation().x(), 1.0);
   ASSERT_EQ(can.shapes.size(), 4u);
   EXPECT_EQ(primitiveOf<Cylinder>(can, 0).radius, 0.05) << "the height stands first";
-  EXPECT_EQ(primitiveOf<Cylinder>(can, 0).half_length, 0.2);
+  EXPECT_EQ(primitiveOf<Cylinder>(can, 0).length, 0.4);
   EXPECT_EQ(can.shapes[0].X_BG.translation().z(), 0.5);
-  EXPECT_EQ(primitiveOf<Box>(can, 1).half_size, Vector3d(0.5, 1, 1.5));
+  EXPECT_EQ(primitiveOf<Box>(can, 1).size, Vector3d(1, 2, 3));
   EXPECT_EQ(primitiveOf<HalfSpace>(can, 2).offset, 2.0);
   EXPECT_EQ(std::get<MeshObject>(can.shapes[3].shape).uri, "package://cell/vice.stl");
 

@@ -66,8 +66,8 @@ double largestNearest(const Solid& a, const Solid& b, int trials) {
 
 TEST(ContactGap, HoldsWhereverSurfacesMeet) {
   const Solid box(test::boxMesh({0.5, 0.3, 0.2})), plate(test::boxMesh({0.5, 0.5, 0.0005})),
-      ball(test::icosphere(0.5, 2)), ring(test::torusMesh(0.4, 0.1, 40, 16)), cylinder(Primitive(Cylinder{0.15, 0.4})),
-      sphere(Primitive(Sphere{0.3}));
+      ball(test::icosphere(0.5, 2)), ring(test::torusMesh(0.4, 0.1, 40, 16)),
+      cylinder(Primitive(Cylinder::fromRadiusAndLength(0.15, 0.8))), sphere(Primitive(Sphere{0.3}));
   const std::vector<const Solid*> solids = {&box, &plate, &ball, &ring, &cylinder, &sphere};
   for (const Solid* a : solids) {
     for (const Solid* b : solids) {

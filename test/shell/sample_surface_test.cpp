@@ -179,9 +179,10 @@ TEST(SampleSurface, EqualSeedsGiveEqualShells) {
 }
 
 TEST(SampleSurface, PrimitivesArePointsOfTheirSurface) {
-  const std::vector<std::pair<Primitive, double>> solids = {{Sphere{0.3}, 4 * test::kPi * 0.09},
-                                                            {Box{{0.1, 0.2, 0.3}}, 8 * (0.02 + 0.06 + 0.03)},
-                                                            {Cylinder{0.1, 0.2}, 2 * test::kPi * 0.1 * 0.5}};
+  const std::vector<std::pair<Primitive, double>> solids = {
+      {Sphere{0.3}, 4 * test::kPi * 0.09},
+      {Box::fromSize({0.2, 0.4, 0.6}), 8 * (0.02 + 0.06 + 0.03)},
+      {Cylinder::fromRadiusAndLength(0.1, 0.4), 2 * test::kPi * 0.1 * 0.5}};
   for (const auto& [solid, area] : solids) {
     for (const double spacing : {0.05, 0.02}) {
       ShellOptions options;
@@ -207,7 +208,7 @@ TEST(SampleSurface, PrimitivesArePointsOfTheirSurface) {
 TEST(SampleSurface, NormalsOfACylinderAreThoseOfItsSides) {
   ShellOptions options;
   options.spacing = 0.02;
-  const PointShell shell = sampleSurface(Primitive(Cylinder{0.1, 0.2}), options);
+  const PointShell shell = sampleSurface(Primitive(Cylinder::fromRadiusAndLength(0.1, 0.4)), options);
   for (std::size_t i = 0; i < shell.size(); ++i) {
     const Vector3d p = shell.point(i);
     const double rounding = shell.position_error + 1e-12;

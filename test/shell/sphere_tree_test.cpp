@@ -96,7 +96,7 @@ TEST(SphereTree, SpheresAreTight) {
   const SphereTree tree = buildSphereTree(ball);
   expectSound(tree, ball);
   EXPECT_LT(tree.nodes[0].radius, 1.001);
-  PointShell box = sampleSurface(Primitive(Box{{1, 0.5, 0.25}}), options);
+  PointShell box = sampleSurface(Primitive(Box::fromSize({2, 1.0, 0.5})), options);
   EXPECT_LT(buildSphereTree(box).nodes[0].radius, 1.001 * Vector3d(1, 0.5, 0.25).norm());
 }
 

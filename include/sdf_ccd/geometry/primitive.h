@@ -12,15 +12,43 @@ struct Sphere {
   double radius = 0.0;  ///< [m], about the origin
 };
 
-/// A cuboid with edges along the axes.
+/// A cuboid about the origin with edges along the axes. Made by name, because braces do not say whether they hold full
+/// sizes, as in URDF, or halves.
 struct Box {
-  Vector3d half_size = Vector3d::Zero();  ///< [m], about the origin
+  Vector3d size = Vector3d::Zero();  ///< full lengths of the edges [m]
+
+  /// From the full lengths of the edges [m].
+  static Box fromSize(const Vector3d& size) {
+    Box box;
+    box.size = size;
+    return box;
+  }
+
+  /// Of the corner in the positive octant [m].
+  Vector3d halfSize() const { return 0.5 * size; }
+
+ private:
+  explicit Box() = default;  // no aggregate
 };
 
-/// A solid circular cylinder around z.
+/// A solid circular cylinder around z, about the origin. Made by name, as a Box.
 struct Cylinder {
-  double radius = 0.0;       ///< [m]
-  double half_length = 0.0;  ///< [m], along z, about the origin
+  double radius = 0.0;  ///< [m]
+  double length = 0.0;  ///< full length along z [m]
+
+  /// From the radius and the full length [m].
+  static Cylinder fromRadiusAndLength(double radius, double length) {
+    Cylinder cylinder;
+    cylinder.radius = radius;
+    cylinder.length = length;
+    return cylinder;
+  }
+
+  /// From the origin to either end [m].
+  double halfLength() const { return 0.5 * length; }
+
+ private:
+  explicit Cylinder() = default;
 };
 
 /// All points with normal·p ≤ offset: the ground is {(0,0,1), 0}.

@@ -16,10 +16,10 @@ void setPrimitive(const Primitive& primitive, Marker& marker) {
     marker.scale = toVector3(Vector3d::Constant(2.0 * sphere->radius));
   } else if (const Box* box = std::get_if<Box>(&primitive)) {
     marker.type = Marker::CUBE;
-    marker.scale = toVector3(2.0 * box->half_size);
+    marker.scale = toVector3(box->size);
   } else if (const Cylinder* cylinder = std::get_if<Cylinder>(&primitive)) {
     marker.type = Marker::CYLINDER;
-    marker.scale = toVector3({2.0 * cylinder->radius, 2.0 * cylinder->radius, 2.0 * cylinder->half_length});
+    marker.scale = toVector3({2.0 * cylinder->radius, 2.0 * cylinder->radius, cylinder->length});
   } else {  // a half-space: the plane z = 0 of markerPose()
     marker.type = Marker::CUBE;
     marker.scale = toVector3({kPlaneSize, kPlaneSize, kPlaneThickness});

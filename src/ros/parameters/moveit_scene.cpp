@@ -127,12 +127,12 @@ WorldShape readShape(Words& words) {
   const std::string type = words.word();
   if (type == "box") {
     const double x = words.positive(), y = words.positive();
-    made.shape = Primitive(Box{0.5 * Vector3d(x, y, words.positive())});
+    made.shape = Primitive(Box::fromSize(Vector3d(x, y, words.positive())));
   } else if (type == "sphere") {
     made.shape = Primitive(Sphere{words.positive()});
   } else if (type == "cylinder") {
     const double radius = words.positive();
-    made.shape = Primitive(Cylinder{radius, 0.5 * words.positive()});
+    made.shape = Primitive(Cylinder::fromRadiusAndLength(radius, words.positive()));
   } else if (type == "cone") {
     const double radius = words.positive();
     made.shape = coneShape(radius, words.positive());

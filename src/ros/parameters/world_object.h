@@ -29,9 +29,9 @@ inline std::size_t dimensionsOf(SolidType type) {
 
 /// @param size  dimensionsOf(type) positive lengths [m].
 inline WorldShape::Shape solidShape(SolidType type, const std::vector<double>& size) {
-  if (type == SolidType::kBox) return Primitive(Box{0.5 * Vector3d(size[0], size[1], size[2])});
+  if (type == SolidType::kBox) return Primitive(Box::fromSize(Vector3d(size[0], size[1], size[2])));
   if (type == SolidType::kSphere) return Primitive(Sphere{size[0]});
-  if (type == SolidType::kCylinder) return Primitive(Cylinder{size[1], 0.5 * size[0]});
+  if (type == SolidType::kCylinder) return Primitive(Cylinder::fromRadiusAndLength(size[1], size[0]));
   return coneShape(size[1], size[0]);
 }
 

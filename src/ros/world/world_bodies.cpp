@@ -19,7 +19,7 @@ BodyDescription awaitedTile(const std::string& frame, const std::string& why) {
   body.map = LiveMapParameters::kName;
   body.failure = why;
   GeometryDescription voxel;  // represents the voxels to come
-  voxel.shape = std::make_shared<const TriangleMesh>(tessellate(Box{Vector3d::Constant(0.1)}, 0.01));
+  voxel.shape = std::make_shared<const TriangleMesh>(tessellate(Box::fromSize(Vector3d::Constant(0.2)), 0.01));
   voxel.source = body.name;
   voxel.watertight_voxels = true;
   body.geometry.push_back(std::move(voxel));

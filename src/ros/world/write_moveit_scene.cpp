@@ -19,9 +19,9 @@ std::string poseLines(const Isometry3d& X) {
 
 struct PrimitiveLines {
   std::string operator()(const Sphere& sphere) const { return fmt::format("sphere\n{:.17g}\n", sphere.radius); }
-  std::string operator()(const Box& box) const { return "box\n" + numbers(2.0 * box.half_size) + "\n"; }
+  std::string operator()(const Box& box) const { return "box\n" + numbers(box.size) + "\n"; }
   std::string operator()(const Cylinder& cylinder) const {
-    return fmt::format("cylinder\n{:.17g} {:.17g}\n", cylinder.radius, 2.0 * cylinder.half_length);
+    return fmt::format("cylinder\n{:.17g} {:.17g}\n", cylinder.radius, cylinder.length);
   }
   std::string operator()(const HalfSpace& half_space) const {
     return "plane\n" + numbers(half_space.normal) + fmt::format(" {:.17g}\n", -half_space.offset);
