@@ -184,12 +184,12 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   if (needs.field) body.parts = builder.makeParts(progress);
   PointShell shell;
   if (needs.shell) shell = builder.makeShell(body.parts);
-  if (needs.shell) body.tree = buildSphereTree(shell);
-  body.shell = std::move(shell);
+  if (needs.shell) body.tree = std::make_shared<const SphereTree>(buildSphereTree(shell));
+  body.shell = std::make_shared<const PointShell>(std::move(shell));
   if (!needs.shell) return;
   report.shell_points = body.shell->size();
-  report.shell_bytes = bytesOf(body.shell, body.tree);
-  report.gap = contactGap(body.shell, body.shell);
+  report.shell_bytes = bytesOf(*body.shell, *body.tree);
+  report.gap = contactGap(*body.shell, *body.shell);
 }
 
 }  // namespace
@@ -235,8 +235,8 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
       body.failure = error.what();
       built.exceeds_limit = dynamic_cast<const std::length_error*>(&error) != nullptr;
       body.parts.clear();
-      body.shell = PointShell();
-      body.tree = SphereTree();
+      body.shell = Body().shell;
+      body.tree = Body().tree;
     }
   }
   if (!body.failure.empty()) built.report.field = "failed";

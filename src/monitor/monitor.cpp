@@ -28,7 +28,7 @@ std::vector<ContactCollector::BodyData> bodyDataOf(const Scene& scene) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     const std::vector<BodyPart>& parts = body.parts;
-    data[b].sums = nodeSums(body.shell, body.tree);
+    data[b].sums = nodeSums(*body.shell, *body.tree);
     data[b].siblings.resize(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i)
       for (std::size_t k = 0; k < parts.size(); ++k)

@@ -33,9 +33,9 @@ ErrorBound contactBound(const Scene& scene, const PlannedPair& pair) {
   if (a_to_b) bound.field = fieldError(b);
   if (b_to_a) bound.field = std::max(bound.field, fieldError(a));
   if (a_to_b && b_to_a) {
-    bound.gap = contactGap(a.shell, b.shell);
+    bound.gap = contactGap(*a.shell, *b.shell);
   } else if (a_to_b || b_to_a) {
-    bound.gap = a_to_b ? gapToField(a.shell, b) : gapToField(b.shell, a);
+    bound.gap = a_to_b ? gapToField(*a.shell, b) : gapToField(*b.shell, a);
   }
   return bound;
 }

@@ -20,7 +20,7 @@ std::size_t bytesOf(const TriangleMesh& mesh) {
 
 /// Of all that it has, also what it shares with others: reports count that for one of them.
 std::size_t bytesOf(const Body& body) {
-  std::size_t bytes = bytesOf(body.shell, body.tree);
+  std::size_t bytes = bytesOf(*body.shell, *body.tree);
   for (const BodyPart& part : body.parts) bytes += part.field.bytes();
   if (body.surface) bytes += bytesOf(body.surface->mesh) + body.surface->tree.bytes();
   if (body.triangles) bytes += body.triangles->bytes();

@@ -15,36 +15,6 @@
 
 namespace sdf_ccd {
 
-/// An immutable value; copies of it share memory.
-template <class T>
-class SharedValue {
- public:
-  SharedValue() : value_(empty()) {}
-  /// Holds the value; without one, a default value.
-  SharedValue(T value) : value_(std::make_shared<const T>(std::move(value))) {}
-
-  /// Copied, never moved: a moved-from object keeps its value.
-  ///@{
-  SharedValue(const SharedValue&) = default;
-  SharedValue& operator=(const SharedValue&) = default;
-  ///@}
-
-  /// The value; a reference to it holds while this or a copy exists.
-  ///@{
-  const T& operator*() const { return *value_; }
-  const T* operator->() const { return value_.get(); }
-  operator const T&() const { return *value_; }
-  ///@}
-
- private:
-  static const std::shared_ptr<const T>& empty() {
-    static const auto none = std::make_shared<const T>();
-    return none;
-  }
-
-  std::shared_ptr<const T> value_;
-};
-
 struct BodySurface;
 struct BodyTriangles;
 class TriangleTree;
@@ -69,8 +39,11 @@ struct BodyHalfSpace {
 struct Body : BodyPlace {
   std::string warning;            ///< about the inside of its meshes (see warningOf()); empty if there is none
   std::vector<BodyPart> parts;    ///< empty if no pair needs its field
-  SharedValue<PointShell> shell;  ///< frame B; empty if no pair needs it; without points deep inside a sibling part
-  SharedValue<SphereTree> tree;
+  /// Points of the surface, frame B, and their tree; none if no pair needs them, or deep inside a sibling part.
+  ///@{
+  std::shared_ptr<const PointShell> shell = std::make_shared<const PointShell>();
+  std::shared_ptr<const SphereTree> tree = std::make_shared<const SphereTree>();
+  ///@}
   std::shared_ptr<const BodySurface> surface;      ///< for voxels of a live map that are those of the body; else null
   std::shared_ptr<const BodyTriangles> triangles;  ///< of its bounded elements, which decide verdicts
   std::vector<BodyHalfSpace> half_spaces;          ///< its unbounded elements, which do so, too
