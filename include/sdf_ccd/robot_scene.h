@@ -168,8 +168,11 @@ class RobotScene {
   static RobotScene parse(const std::string& urdf_xml, const std::string& srdf_xml = {},
                           const std::vector<WorldObject>& world = {}, const RobotSceneOptions& options = {});
 
+  /// A scene that was moved from can only be assigned to, or destroyed.
+  ///@{
   RobotScene(RobotScene&&) noexcept;
   RobotScene& operator=(RobotScene&&) noexcept;
+  ///@}
   ~RobotScene();
 
   /// Its links and joints.
@@ -223,11 +226,10 @@ class RobotScene {
                                           const MotionCheckOptions& options = {}) const;
 
   /// The smallest distance of all pairs, or the deepest contact; an UNCERTAIN pair comes before one that is CLEAR and
-  /// nearer. Joints may be beyond their limits.
+  /// nearer. Joints may be beyond their limits [rad or m]; those that are not named are where setJoints() has them.
   ///
   /// If a pair is NOT_CHECKED and this one is CLEAR, the verdict is NOT_CHECKED with the other's reason: the distance
   /// holds for all pairs but those that distances() lists as such.
-  /// @param joints  positions [rad or m]; the others are where setJoints() has them.
   /// @throws std::invalid_argument for a joint that does not exist or a value that is not finite.
   ///@{
   BodyDistance distance(const JointPositions& joints) const;

@@ -25,6 +25,7 @@ struct OctomapObject {
 
 /// One shape of an object.
 struct WorldShape {
+  /// A mesh may also be one in memory.
   using Shape = std::variant<Primitive, MeshObject, OctomapObject, std::shared_ptr<const TriangleMesh>>;
   Shape shape;
   Isometry3d X_BG = Isometry3d::Identity();  ///< in the object's frame B
