@@ -10,14 +10,10 @@ namespace sdf_ccd {
 struct ClosedComponent {
   bool flip = false;
   bool cavity = false;
-  bool flat = false;           ///< a sheet drawn from both sides
-  bool solid_within = false;   ///< lies in another one and faces outward, too; set of one such patch only
   int negative_triangles = 0;  ///< with a winding number of the patch behind them that is not above zero, although the
                                ///< patch as a whole is oriented correctly: they bound a lobe of a self-intersecting one
-  /// Winding numbers may cancel inside a solid: the patch of such a lobe meets another one or itself in edges, two
-  /// cavities cut each other, the volume is zero though the patch is not flat, flat patches may enclose a volume. Or a
-  /// cavity may be taken for a solid, or the reverse: the patch lies in another one, and one of the two is inside out
-  /// or mixed (see Patch), or it lies in several.
+  /// What is inside is not certain: the patch encloses no volume; it is flipped or has a lobe, and there are others or
+  /// it may cancel itself; or it is a cavity that does not lie in exactly one other patch, apart from all others.
   bool doubtful = false;
 };
 

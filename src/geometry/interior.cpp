@@ -29,8 +29,7 @@ ClosedParts closedParts(const TriangleMesh& mesh) {
   ClosedParts parts;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (!patches[i].closed) continue;
-    const bool has_lobe = found[i].negative_triangles > 0 && found[i].doubtful;
-    if (has_lobe && signedVolume(extract(mesh, patches[i])) > 0.0) {  // else it is a cavity, which has to cancel
+    if (found[i].negative_triangles > 0 && signedVolume(extract(mesh, patches[i])) > 0.0) {  // else it is a cavity, which has to cancel
       parts.apart.push_back(std::move(patches[i]));
       continue;
     }

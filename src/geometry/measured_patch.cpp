@@ -7,22 +7,6 @@
 #include "geometry/corners.h"
 
 namespace sdf_ccd {
-namespace {
-
-/// Whether all triangles lie in a plane.
-bool isFlat(const TriangleMesh& mesh, double size) {
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vector3d n = areaNormal(mesh, static_cast<int>(i));
-    if (n.squaredNorm() > normal.squaredNorm()) normal = n;
-  }
-  normal.normalize();
-  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                     [&](const Vector3d& v) { return std::abs(normal.dot(v - mesh.vertices.front())) <= 1e-6 * size; });
-}
-
-}  // namespace
-
 MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
   MeasuredPatch result;
   const TriangleMesh part = extract(mesh, patch);
@@ -30,12 +14,7 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
   if (!patch.closed) return result;
   const double volume = signedVolume(part), size = result.box.sizes().maxCoeff();
   result.inward = volume < 0.0;
-  if (!(size > 1e-9)) return result;  // only a point
-  if (!(std::abs(volume) > 1e-7 * size * surfaceArea(part))) {
-    result.flat = isFlat(part, size);
-    result.unmeasured = !result.flat;
-    return result;
-  }
+  if (!(size > 1e-9 && std::abs(volume) > 1e-7 * size * surfaceArea(part))) return result;
   result.tree = std::make_unique<TriangleTree>(part);
 
   const std::size_t count = part.triangles.size();
@@ -52,10 +31,11 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
     known[i] = 1;
   });
 
+  int facing_out = 0, facing_in = 0;
   double area_out = 0.0, area_in = 0.0, farthest = -kInfinity;
   for (std::size_t i = 0; i < count; ++i) {
     if (!known[i]) continue;
-    (numbers[i] > 0.5 ? result.facing_out : result.facing_in).push_back(patch.triangles[i]);
+    ++(numbers[i] > 0.5 ? facing_out : facing_in);
     // Visible from where the number is zero: the front of a triangle with 1 behind it, the back of one with 0 behind
     // it.
     const long number = std::lround(numbers[i]);
@@ -66,12 +46,12 @@ MeasuredPatch measurePatch(const TriangleMesh& mesh, const Patch& patch) {
       farthest = behind[i].x();
       result.witness = centroid(cornersOf(part, static_cast<int>(i)));
       result.behind = behind[i];
-      result.own_number = numbers[i];
     }
   }
   // If both areas are similar, the sign of the volume decides.
   if (area_in > 2.0 * area_out) result.inward = true;
   if (area_out > 2.0 * area_in) result.inward = false;
+  result.negative_triangles = result.inward ? facing_out : facing_in;
   return result;
 }
 

@@ -25,7 +25,6 @@ std::string summary(const MeshQuality& quality) {
   count(quality.inverted_components, "inverted component", " flipped");
   count(quality.inverted_sheets, "open part", " flipped");
   count(quality.negative_triangles, "triangle", " inside out by self-intersection");
-  if (quality.solid_within) text += ", solid within solid";
   return text +
          fmt::format(", volume {:.3g} m^3, sign {}", quality.volume, quality.sign_trusted ? "trusted" : "doubtful");
 }
@@ -41,9 +40,6 @@ std::string warningOf(const MeshQuality& quality) {
       "open parts were inside out and have been flipped");
   say(quality.negative_triangles, "triangle of a self-intersecting part is inside out",
       "triangles of self-intersecting parts are inside out");
-  if (quality.solid_within)
-    text += std::string(text.empty() ? "" : "; ") +
-            "a component within another one faces outward, too, so both are solid (the wall of a cavity faces inward)";
   return text;
 }
 

@@ -61,26 +61,6 @@ bool allSeen(const TriangleMesh& mesh, const TriangleTree& tree, int first, int 
   return true;
 }
 
-/// Whether `test` is true for any two triangles that cut each other.
-template <typename Test>
-bool anyCut(const TriangleMesh& mesh, const TriangleTree& tree, const Test& test) {
-  const double eps = cutTolerance(mesh);
-  std::atomic<bool> found{false};
-  tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
-  parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
-    if (found) return;
-    const int triangle = static_cast<int>(i);
-    std::vector<int>& near = near_of_thread.local();
-    tree.trianglesNear(cornersOf(mesh, triangle), eps, near);
-    for (const int other : near) {
-      if (other <= triangle || !cut(mesh, triangle, other, eps) || !test(triangle, other)) continue;
-      found = true;
-      return;
-    }
-  });
-  return found;
-}
-
 }  // namespace
 
 bool branches(const TriangleMesh& mesh) {
@@ -89,13 +69,21 @@ bool branches(const TriangleMesh& mesh) {
   return found;
 }
 
-bool touchesItself(const TriangleMesh& mesh, const TriangleTree& tree) {
-  return anyCut(mesh, tree, [](int, int) { return true; });
-}
-
 bool mayHidePockets(const TriangleMesh& mesh, const TriangleTree& tree) {
-  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff();
-  return anyCut(mesh, tree, [&](int first, int second) { return !allSeen(mesh, tree, first, second, step); });
+  const double step = 1e-5 * boundingBox(mesh).sizes().maxCoeff(), eps = cutTolerance(mesh);
+  std::atomic<bool> found{false};
+  tbb::enumerable_thread_specific<std::vector<int>> near_of_thread;
+  parallelFor(std::size_t{0}, mesh.triangles.size(), [&](std::size_t i) {
+    if (found) return;
+    const int triangle = static_cast<int>(i);
+    std::vector<int>& near = near_of_thread.local();
+    tree.trianglesNear(cornersOf(mesh, triangle), eps, near);
+    for (const int other : near) {
+      if (other <= triangle || !cut(mesh, triangle, other, eps)) continue;
+      if (!allSeen(mesh, tree, triangle, other, step)) found = true;
+    }
+  });
+  return found;
 }
 
 }  // namespace sdf_ccd

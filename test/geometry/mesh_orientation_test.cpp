@@ -109,7 +109,7 @@ TEST(MeshOrientation, WhatMayCancelOrBeACavityIsDoubtful) {
   for (const auto& [name, mesh] : drawn) EXPECT_FALSE(orientOutward(mesh).quality.sign_trusted) << name;
 }
 
-TEST(MeshOrientation, AWallAcrossARingStaysAndTheRingIsTrusted) {
+TEST(MeshOrientation, AWallAcrossARingStays) {
   // A square ring of four prisms as one surface, its hole closed by a sheet from both sides on the inner edges.
   TriangleMesh ring;
   for (const double half : {1.0, 0.5}) {
@@ -135,7 +135,7 @@ TEST(MeshOrientation, AWallAcrossARingStaysAndTheRingIsTrusted) {
     const OrientedMesh result = orientOutward(drawn);
     EXPECT_EQ(result.quality.wall_triangles, 4);
     // A part that is inside out, and shares a face with another, leaves such walls too.
-    EXPECT_EQ(result.quality.sign_trusted, result.quality.inverted_components == 0) << summary(result.quality);
+    EXPECT_FALSE(result.quality.sign_trusted) << summary(result.quality);
     EXPECT_TRUE(isInside(result.mesh, {0.75, 0.1, 0.1}));
     EXPECT_FALSE(isInside(result.mesh, {0.1, 0.05, 0.1}));
     EXPECT_LT(TriangleTree(result.mesh).closestPoint({0.1, 0.05, 0.2}).distance, 1e-12);
@@ -205,7 +205,7 @@ TEST(MeshOrientation, BoxesOfDividedFacesAreTurnedAsClosedOnes) {
         std::pair("last bits", last_bits), std::pair("last bits of floats", last_floats)}) {
     SCOPED_TRACE(name);
     const OrientedMesh oriented = orientOutward(mesh);
-    EXPECT_TRUE(oriented.quality.sign_trusted);
+    EXPECT_FALSE(oriented.quality.sign_trusted);  // as one of several is turned
     EXPECT_EQ(oriented.quality.inverted_components, 1);
     EXPECT_EQ(oriented.quality.inverted_sheets, 0);
     EXPECT_TRUE(isInside(oriented.mesh, {0.35, 0.01, 0.02}));
@@ -219,7 +219,7 @@ TEST(MeshOrientation, AHollowBoxOfWallsOfNearlyNoThicknessKeepsItsCavity) {
     const TriangleMesh box = boxMesh({0.5, 0.5, 0.5}), cavity = boxMesh(Vector3d::Constant(0.5 - wall));
     const OrientedMesh hollow = orientOutward(merged(box, flipped(cavity)));
     EXPECT_EQ(hollow.quality.inverted_components, 0) << wall;
-    EXPECT_TRUE(hollow.quality.sign_trusted) << wall;
+    EXPECT_EQ(hollow.quality.sign_trusted, wall > 1e-6) << wall;  // else within rounding of floats
     EXPECT_FALSE(isInside(hollow.mesh, {0.1, 0.2, 0.05})) << wall;
   }
 }
@@ -295,7 +295,7 @@ TEST(MeshOrientation, APartInsideOutAcrossTheEndOfABlockLeavesItsCavity) {
       EXPECT_EQ(result.quality.inverted_components, 1) << x;
       EXPECT_FALSE(isInside(result.mesh, {0.01, 0.02, 0.03})) << x;
       EXPECT_TRUE(isInside(result.mesh, {0.35, 0.01, 0.02})) << x;
-      EXPECT_TRUE(result.quality.sign_trusted) << x;
+      EXPECT_FALSE(result.quality.sign_trusted) << x;
     }
   }
 }
@@ -328,16 +328,11 @@ TEST(MeshOrientation, LobesOfABowTieAreCountedAndDoubtedInOtherParts) {
   EXPECT_TRUE(alone.quality.sign_trusted);
   EXPECT_NE(warningOf(alone.quality).find("inside out"), std::string::npos);
   const auto box_at = [&](const Vector3d& p, double half) { return translated(boxMesh(Vector3d::Constant(half)), p); };
-  EXPECT_TRUE(orientOutward(merged(tie, box_at({1, 0, 0}, 0.1))).quality.sign_trusted);
-  // In the ring, around it, across its surface, and in the rod: where winding numbers cancel, the sign must not be
-  // trusted.
-  int doubted = 0;
+  // In the ring, around it, across its surface, and in the rod, some winding numbers cancel.
   for (const auto& [x, half] : {std::pair(0.126, 0.01), {0.126, 0.3}, {0.126, 0.04}, {0.001, 0.01}, {0.001, 0.04}}) {
     const OrientedMesh both = orientOutward(merged(tie, box_at({x, 0.001, 0.1 * (x < 0.1)}, half)));
-    doubted += !both.quality.sign_trusted;
-    EXPECT_TRUE(!both.quality.sign_trusted || isInside(both.mesh, {x, 0.001, 0.1 * (x < 0.1)})) << x << " " << half;
+    EXPECT_FALSE(both.quality.sign_trusted) << x << " " << half;
   }
-  EXPECT_GE(doubted, 2);
 }
 
 TEST(MeshOrientation, TheAnswerIsTheSameEachTime) {

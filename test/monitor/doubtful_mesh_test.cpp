@@ -158,14 +158,6 @@ TEST(DoubtfulMesh, WhatComesOutOfATubeBecomesClear) {
   EXPECT_LE((first_kept - first_fresh) * kStep, 0.1 * 0.035 + kStep);
 }
 
-/// A part that is drawn inside out is one also if some other part is open.
-TEST(DoubtfulMesh, APartInsideOutBesideAnOpenBoxIsNotDoubtful) {
-  for (const Vector3d& place : {Vector3d(2, 0, 0), Vector3d(0, 0, 0.6)}) {
-    const TriangleMesh mesh = merged(test::binMesh(0.5), translated(flipped(boxMesh({0.1, 0.1, 0.1})), place));
-    EXPECT_FALSE(orientOutward(mesh).quality.doubtful) << place.transpose();
-  }
-}
-
 /// No box is inside out, but they are tessellated separately and a loose sheet keeps the mesh open, so the orientation
 /// of their faces is a guess.
 TEST(DoubtfulMesh, WhatIsInPartsBesideALooseSheetIsNotClear) {

@@ -23,8 +23,6 @@ struct MeshQuality {
   int hidden_triangles = 0;      ///< left out: both sides of walls inside a solid
   double hidden_area = 0.0;      ///< of those, both sides [m²]
   int wall_triangles = 0;        ///< kept: both sides of walls without thickness that have the outside on both sides
-  bool solid_within = false;     ///< a closed component lies in another one and faces outward, too: both are solid,
-                                 ///< though it may have been meant to be the wall of a cavity
   double volume = 0.0;           ///< signed, of the oriented mesh [m³]
   double area = 0.0;             ///< [m²]
   AlignedBox3d box;              ///< [m]
@@ -43,12 +41,11 @@ struct OrientedMesh {
 ///
 /// A closed component that no other closed one contains is flipped to enclose positive volume; one inside others stays
 /// unchanged: a cavity if it faces its inside, else a solid within a solid. If all components that no other one
-/// contains are inside out, the whole file is, and everything is flipped (resulting cavities are kept, but the sign is
-/// not trusted). Open parts are flipped if their back is visible from outside.
+/// contains are inside out, the whole file is, and everything is flipped. Open parts are flipped if their back is visible from outside.
 ///
-/// The mesh is doubtful if winding numbers of parts may cancel each other, if walls without thickness enclose a region,
-/// or if it is ambiguous whether a part inside another one, or behind open ones, is a solid or a cavity because one of
-/// the two had to be flipped or is drawn in both orientations.
+/// The mesh is doubtful if one of several parts had to be flipped, is drawn in both orientations, or intersects itself
+/// so that it is inside out in places; if a cavity does not lie in exactly one other part, apart from it; or if a wall
+/// without thickness remains.
 ///
 /// Of triangles with the same corners one is kept. There are two exceptions. A face that two parts share, one part
 /// within the other, is kept once per part. Of a wall drawn from both sides whose border lies on other triangles, both
@@ -61,8 +58,7 @@ OrientedMesh orientOutward(const TriangleMesh& mesh);
 /// One line of text: "300 triangles, closed, volume 1.2e-3 m^3, sign trusted".
 std::string summary(const MeshQuality& quality);
 
-/// A one-line warning for users who rely on inside and outside: that the sign is not trusted, that parts were flipped,
-/// or that a part in another one is solid.
+/// A one-line warning for users who rely on inside and outside: that the sign is not trusted, or parts were flipped.
 /// Empty if there is nothing to warn about.
 std::string warningOf(const MeshQuality& quality);
 
