@@ -8,8 +8,8 @@
 
 #include "common/number_text.h"
 #include "fcl_model.h"
+#include "impact_systems.h"
 #include "motion/screw_motion.h"
-#include "precision/impact_measurement.h"
 #include "precision/random_inputs.h"
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -20,6 +20,13 @@ using namespace precision;
 
 constexpr double kTolerance = 1e-7;  // of the exact impact [m]
 constexpr int kMaxSteps = 1000;      // of conservative advancement
+
+/// A motion of a body that meets one at rest, with the exact time of impact.
+struct ExactImpact {
+  Isometry3d X_FP_start, X_FP_end;
+  double time;    ///< in (0, 1)
+  double travel;  ///< upper bound of the travel of all points [m]
+};
 
 /// Two copies of a mesh: one rests at the origin, the other moves.
 class Copies {
@@ -50,7 +57,7 @@ class Copies {
       // A cycle's part of the motion.
       const double from = std::max(0.0, time - uniform(random, 0.01, 0.05) * side_ / travel),
                    until = std::min(1.0, time + 0.02 * side_ / travel);
-      found.push_back({{screw.pose(from), screw.pose(until)}, (time - from) / (until - from), travel * (until - from)});
+      found.push_back({screw.pose(from), screw.pose(until), (time - from) / (until - from), travel * (until - from)});
     }
     return found;
   }
@@ -161,10 +168,19 @@ StudyResult impactStudy(const StudyInput& input) {
   StudyResult result{"impact", "Two bodies: time of impact", "max_error or accuracy [m]", "motion of a body", {}};
   const std::vector<ExactImpact> exact = Copies(input.mesh).impacts(std::max(10, input.queries / 40));
   std::vector<ImpactSystem> systems = cycleSystems(input.mesh);
-  if (input.peers.impacts) {
-    for (ImpactSystem& peer : input.peers.impacts(input.mesh, input.mesh)) systems.push_back(std::move(peer));
-  }
-  result.rows = measureImpacts(systems, exact, input.progress);
+  for (const ImpactFactory& factory : impactFactories())
+    for (ImpactSystem& peer : factory(input.mesh, input.mesh)) systems.push_back(std::move(peer));
+  std::vector<System<double>> timed;
+  for (const ImpactSystem& system : systems)
+    timed.push_back({system.label, [&exact, impact = system.impact](std::vector<double>& times) {
+                       for (std::size_t i = 0; i < exact.size(); ++i)
+                         times[i] = impact(exact[i].X_FP_start, exact[i].X_FP_end);
+                     }});
+  const auto error = [&](std::size_t i, double time) {
+    return time < 0.0 ? Label::kNone : std::abs(time - exact[i].time) * exact[i].travel;
+  };
+  result.rows =
+      measure<double>(timed, exact.size(), {{"time of impact (length of travel)", "m", error}}, input.progress);
   return result;
 }
 

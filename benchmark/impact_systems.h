@@ -3,13 +3,19 @@
 #include <functional>
 #include <vector>
 
-#include "precision/peers.h"
+#include "precision/measurement.h"
+#include "sdf_ccd/geometry/triangle_mesh.h"
 
 namespace sdf_ccd::benchmark {
 
+/// Computes the time of impact in [0, 1] of a body moving with a constant twist with a body at rest; negative if none.
+struct ImpactSystem {
+  precision::Label label;
+  std::function<double(const Isometry3d& X_FP_start, const Isometry3d& X_FP_end)> impact;
+};
+
 /// Factories of systems that find times of impact. Each is in a file of its own that registers it here before main().
-using ImpactFactory =
-    std::function<std::vector<precision::ImpactSystem>(const TriangleMesh& field, const TriangleMesh& shell)>;
+using ImpactFactory = std::function<std::vector<ImpactSystem>(const TriangleMesh& rests, const TriangleMesh& moves)>;
 
 inline std::vector<ImpactFactory>& impactFactories() {
   static std::vector<ImpactFactory> factories;

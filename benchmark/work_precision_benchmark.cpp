@@ -5,7 +5,6 @@
 
 #include "build_systems.h"
 #include "common/number_text.h"
-#include "impact_systems.h"
 #include "precision/gnuplot.h"
 #include "precision/report.h"
 #include "precision/studies.h"
@@ -28,47 +27,39 @@ precision::Label gridLabel(const std::string& system, const TriangleMesh& mesh, 
   return {system, lengthText(cell), cell};
 }
 
-std::vector<precision::HitSystem> hitSystems(SegmentSystems systems,
-                                             const std::function<precision::Label(const std::string&)>& label) {
-  std::vector<precision::HitSystem> found;
+void addHits(SegmentSystems systems, const std::vector<Segment>& segments,
+             const std::function<precision::Label(const std::string&)>& label, precision::FieldSystems& all) {
   for (auto& system : systems) {
     if (!system->tellsTimes()) continue;
     const std::shared_ptr<SegmentSystem> shared = std::move(system);
-    found.push_back({label(shared->name()), [shared](const std::vector<Segment>& segments, std::vector<double>& times) {
-                       shared->firstTimes(segments, times);
-                     }});
+    all.hits.push_back({label(shared->name()),
+                        [shared, &segments](std::vector<double>& times) { shared->firstTimes(segments, times); }});
   }
-  return found;
 }
 
-std::vector<precision::HitSystem> meshHits(const TriangleMesh& mesh) {
+void addPeers(const precision::FieldQueries& queries, int cells, precision::FieldSystems& all) {
   SegmentSystems systems;
-  for (const MeshFactory& factory : meshFactories()) factory(mesh, systems);
-  return hitSystems(std::move(systems), [](const std::string& name) { return precision::Label{name, ""}; });
-}
-
-std::vector<precision::HitSystem> gridHits(const TriangleMesh& mesh, int cells) {
-  SegmentSystems systems;
+  if (cells == 0) {
+    for (const MeshFactory& factory : meshFactories()) factory(queries.mesh, systems);
+    return addHits(
+        std::move(systems), queries.segments,
+        [](const std::string& name) {
+          return precision::Label{name, ""};
+        },
+        all);
+  }
   const DistanceField none{Primitive(Sphere{1.0})};  // unused: these systems make their own grids
-  for (const FieldFactory& factory : fieldFactories()) factory({mesh, none, cells, false}, systems);
-  return hitSystems(std::move(systems), [&](const std::string& name) { return gridLabel(name, mesh, cells); });
-}
-
-std::vector<precision::DistanceSystem> gridDistances(const TriangleMesh& mesh, int cells) {
-  std::vector<precision::DistanceSystem> found;
+  for (const FieldFactory& factory : fieldFactories()) factory({queries.mesh, none, cells, false}, systems);
+  addHits(
+      std::move(systems), queries.segments,
+      [&](const std::string& name) { return gridLabel(name, queries.mesh, cells); }, all);
   for (const FieldBuilder& builder : fieldBuilders()) {
-    const std::shared_ptr<const BuiltField> field = builder.build(mesh, {builder.name, cells, {}});
-    found.push_back({gridLabel(builder.name, mesh, cells), [field](const Vector3d& p) { return field->distance(p); }});
+    const std::shared_ptr<const BuiltField> field = builder.build(queries.mesh, {builder.name, cells, {}});
+    all.distances.push_back(
+        {gridLabel(builder.name, queries.mesh, cells), [field, &queries](std::vector<double>& found) {
+           for (std::size_t i = 0; i < queries.points.size(); ++i) found[i] = field->distance(queries.points[i]);
+         }});
   }
-  return found;
-}
-
-std::vector<precision::ImpactSystem> impacts(const TriangleMesh& field, const TriangleMesh& shell) {
-  std::vector<precision::ImpactSystem> found;
-  for (const ImpactFactory& factory : impactFactories()) {
-    for (precision::ImpactSystem& system : factory(field, shell)) found.push_back(std::move(system));
-  }
-  return found;
 }
 
 void printRows(const std::string& mesh, const StudyResult& result) {
@@ -114,7 +105,7 @@ void study(const NamedMesh& named, const StudyOptions& options) {
   input.mesh = scaled(named.mesh, Vector3d::Constant(kSide / boundingBox(named.mesh).sizes().maxCoeff()));
   input.queries = int(options.segments);
   input.quick = options.quick;
-  input.peers = {&meshHits, &gridHits, &gridDistances, &impacts};
+  input.add_peers = &addPeers;
   StudyResult joined{"fields", "Error against the exact mesh over run time: " + named.name, "", "query", {}};
   for (const precision::Study& study : allStudies()) {
     if (!isWanted(options.cases, study.name)) continue;

@@ -6,11 +6,10 @@
 namespace sdf_ccd::benchmark {
 namespace {
 
-/// FCL's continuous collision along a screw motion by its default solver, which tests a given number of poses. It tests
-/// whole triangles, while a shell has only points, so a difference of up to the points' spacing is not FCL's error.
-std::vector<precision::ImpactSystem> impacts(const TriangleMesh& field, const TriangleMesh& shell) {
+/// FCL's continuous collision along a screw motion by its default solver, which tests a given number of poses.
+std::vector<ImpactSystem> impacts(const TriangleMesh& field, const TriangleMesh& shell) {
   const std::shared_ptr<const FclModel> field_model = fclModel(field), shell_model = fclModel(shell);
-  std::vector<precision::ImpactSystem> systems;
+  std::vector<ImpactSystem> systems;
   for (const int poses : {10, 100, 1000}) {
     const auto impact = [=](const Isometry3d& X_FP_start, const Isometry3d& X_FP_end) {
       fcl::ContinuousCollisionRequestd request;

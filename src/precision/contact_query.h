@@ -25,12 +25,6 @@ struct Motion {
   Isometry3d X_FP_start, X_FP_end;
 };
 
-/// Distance [m] along u between the centres of field and shell at which the shell almost touches the field's surface:
-/// the clearance is at most 1.2 times the field's error bound plus a thousandth of `side`. Found by conservative
-/// advancement from a distance of 3 `side`.
-double touchingDistance(const DistanceField& field, const TreeShell& shell, const Matrix3d& R_FP, const Vector3d& u,
-                        double side);
-
 /// Random motions of copies of a body that start between `shallow` and `deep` [m] deep in it, move deeper by `travel`
 /// [m] and rotate by 0.02 rad. All have contact.
 std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, int count, double shallow, double deep,

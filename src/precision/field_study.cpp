@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "common/number_text.h"
@@ -10,7 +11,6 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "studies.h"
-#include "timing.h"
 
 namespace sdf_ccd::precision {
 namespace {
@@ -22,41 +22,44 @@ double sideOf(const TriangleMesh& mesh) {
   return boundingBox(mesh).sizes().maxCoeff();
 }
 
-/// Segments that begin outside and hit the mesh, with the parameter of the first hit.
-struct ExactHits {
-  std::vector<Segment> segments;
-  std::vector<double> times;
+/// Queries with their exact answers on a mesh.
+struct ExactQueries : FieldQueries {
+  std::vector<double> times, distances;
 
-  ExactHits(const ExactSurface& mesh, int count) {
-    const double side = sideOf(mesh.mesh());
-    AlignedBox3d box = boundingBox(mesh.mesh());
+  /// @param input  its mesh outlives this.
+  explicit ExactQueries(const StudyInput& input) : FieldQueries{input.mesh, {}, {}} {
+    const ExactSurface exact(mesh);
+    findHits(exact, input.queries);
+    findDepths(exact, input.queries);
+  }
+
+ private:
+  /// Segments that begin outside and hit the mesh, with the parameter of the first hit.
+  void findHits(const ExactSurface& exact, int count) {
+    const double side = sideOf(exact.mesh());
+    AlignedBox3d box = boundingBox(exact.mesh());
     box = {box.min().array() - 0.2 * side, box.max().array() + 0.2 * side};
     Random random(1);
     for (int tries = 0; int(segments.size()) < count; ++tries) {
       if (tries > 1000 * count) throw std::runtime_error("no segment meets the mesh");
       const Segment segment{uniformIn(random, box), uniformIn(random, box)};
-      if (mesh.distance(segment.start) < kFree * side) continue;
-      const std::optional<double> hit = mesh.firstHit(segment);
+      if (exact.distance(segment.start) < kFree * side) continue;
+      const std::optional<double> hit = exact.firstHit(segment);
       if (!hit) continue;
       segments.push_back(segment);
       times.push_back(*hit);
     }
   }
-};
 
-/// Points just inside the mesh, with their signed distances.
-struct ExactDepths {
-  std::vector<Vector3d> points;
-  std::vector<double> distances;
-
-  ExactDepths(const ExactSurface& mesh, int count) {
-    const double deepest = kDeepest * sideOf(mesh.mesh());
-    const SurfaceSampler surface(mesh.mesh());
+  /// Points just inside the mesh, with their signed distances.
+  void findDepths(const ExactSurface& exact, int count) {
+    const double deepest = kDeepest * sideOf(exact.mesh());
+    const SurfaceSampler surface(exact.mesh());
     Random random(2);
     for (int tries = 0; int(points.size()) < count; ++tries) {
       if (tries > 1000 * count) throw std::runtime_error("no point is inside the mesh");
       const Vector3d p = surface(random) + uniform(random, 0.0, deepest) * direction(random);
-      const double distance = mesh.distance(p);
+      const double distance = exact.distance(p);
       if (distance > 0.0) continue;
       points.push_back(p);
       distances.push_back(distance);
@@ -64,71 +67,19 @@ struct ExactDepths {
   }
 };
 
-void measureHits(const ExactHits& exact, const std::vector<HitSystem>& systems, const StudyInput& input,
-                 StudyResult& result) {
-  std::vector<std::vector<double>> found(systems.size());
-  std::vector<std::function<void()>> tasks;
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    tasks.push_back([&, k] { systems[k].first_hits(exact.segments, found[k]); });
-  }
-  const std::vector<double> seconds =
-      secondsPerQuery(tasks, exact.segments.size(), [&](double share) { input.progress(0.8 + 0.1 * share); });
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    Measurement row{systems[k].label, "time of impact (length along the path)", "m"};
-    row.bound = Measurement::kNone;  // it bounds the surface's location, not the time of impact
-    row.seconds = seconds[k];
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < exact.segments.size(); ++i) {
-      const Segment& segment = exact.segments[i];
-      if (found[k][i] >= 0.0) {
-        errors.push_back(std::abs(found[k][i] - exact.times[i]) * (segment.end - segment.start).norm());
-      } else {
-        ++row.missed;
-      }
-    }
-    if (errors.empty()) continue;
-    row.error = summarize(std::move(errors));
-    result.rows.push_back(row);
-  }
-}
-
-void measureDepths(const ExactDepths& exact, const std::vector<DistanceSystem>& systems, const StudyInput& input,
-                   StudyResult& result) {
-  std::vector<std::vector<double>> found(systems.size(), std::vector<double>(exact.points.size()));
-  std::vector<std::function<void()>> tasks;
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    tasks.push_back([&, k] {
-      for (std::size_t i = 0; i < exact.points.size(); ++i) found[k][i] = systems[k].distance(exact.points[i]);
-    });
-  }
-  const std::vector<double> seconds =
-      secondsPerQuery(tasks, exact.points.size(), [&](double share) { input.progress(0.9 + 0.1 * share); });
-  for (std::size_t k = 0; k < systems.size(); ++k) {
-    Measurement row{systems[k].label, "depth", "m"};
-    row.seconds = seconds[k];
-    std::vector<double> errors;
-    for (std::size_t i = 0; i < exact.points.size(); ++i) {
-      errors.push_back(std::abs(found[k][i] - exact.distances[i]));
-    }
-    row.error = summarize(std::move(errors));
-    result.rows.push_back(row);
-  }
-}
-
-HitSystem oneByOne(const Label& label, const DistanceField& field) {
-  return {label, [field](const std::vector<Segment>& segments, std::vector<double>& times) {
-            times.assign(segments.size(), -1.0);
+System<double> oneByOne(const Label& label, const DistanceField& field, const std::vector<Segment>& segments) {
+  return {label, [field, &segments](std::vector<double>& times) {
             Intervals intervals;
             for (std::size_t i = 0; i < segments.size(); ++i) {
               segmentIntervals(field, segments[i], {0.0, SegmentMode::kFirst}, intervals);
-              if (!intervals.empty()) times[i] = intervals.front().enter;
+              times[i] = intervals.empty() ? -1.0 : intervals.front().enter;
             }
           }};
 }
 
-HitSystem batched(Label label, const DistanceField& field) {
+System<double> batched(Label label, const DistanceField& field, const std::vector<Segment>& segments) {
   label.system.replace(0, std::string("sdf_ccd").size(), "sdf_ccd batch");
-  return {label, [field](const std::vector<Segment>& segments, std::vector<double>& times) {
+  return {label, [field, &segments](std::vector<double>& times) {
             thread_local BatchResult batch;
             times.assign(segments.size(), -1.0);
             segmentIntervals(field, segments.data(), segments.size(), {0.0, SegmentMode::kFirst}, batch);
@@ -136,15 +87,10 @@ HitSystem batched(Label label, const DistanceField& field) {
           }};
 }
 
-template <typename System>
-void append(std::vector<System>& systems, std::vector<System> more) {
-  for (System& system : more) systems.push_back(std::move(system));
-}
-
 /// Builds all fields before anything is timed, so that the systems can be timed in turn.
 class FieldStudy {
  public:
-  explicit FieldStudy(const StudyInput& input) : input_(input), side_(sideOf(input.mesh)) {}
+  explicit FieldStudy(const StudyInput& input) : input_(input), side_(sideOf(input.mesh)), exact_(input) {}
 
   double side() const { return side_; }
 
@@ -154,29 +100,40 @@ class FieldStudy {
       input_.progress(0.8 * (share_before + share * (share_after - share_before)));
     });
     label.bound = field.errorBound();
-    hits_.push_back(oneByOne(label, field));
-    batches_.push_back(batched(label, field));
-    distances_.push_back({label, [field](const Vector3d& p) { return field.interpolate(p).value; }});
+    systems_.hits.push_back(oneByOne(label, field, exact_.segments));
+    batches_.push_back(batched(label, field, exact_.segments));
+    systems_.distances.push_back({label, [field, this](std::vector<double>& distances) {
+                                    for (std::size_t i = 0; i < exact_.points.size(); ++i)
+                                      distances[i] = field.interpolate(exact_.points[i]).value;
+                                  }});
   }
 
-  void addGrids(int cells) {
-    if (input_.peers.grid_hits) append(hits_, input_.peers.grid_hits(input_.mesh, cells));
-    if (input_.peers.grid_distances) append(distances_, input_.peers.grid_distances(input_.mesh, cells));
-  }
+  void addPeers(int cells) { input_.add_peers(exact_, cells, systems_); }
 
-  void measure(StudyResult& result) {
-    append(hits_, batches_);
-    if (input_.peers.mesh_hits) append(hits_, input_.peers.mesh_hits(input_.mesh));
-    const ExactSurface mesh(input_.mesh);
-    measureHits(ExactHits(mesh, input_.queries), hits_, input_, result);
-    measureDepths(ExactDepths(mesh, input_.queries), distances_, input_, result);
+  std::vector<Measurement> measured() {
+    std::move(batches_.begin(), batches_.end(), std::back_inserter(systems_.hits));
+    addPeers(0);
+    const auto hit_error = [&](std::size_t i, double time) {
+      const Segment& segment = exact_.segments[i];
+      return time < 0.0 ? Label::kNone : std::abs(time - exact_.times[i]) * (segment.end - segment.start).norm();
+    };
+    const auto distance_error = [&](std::size_t i, double d) { return std::abs(d - exact_.distances[i]); };
+    std::vector<Measurement> rows = measure<double>(systems_.hits, exact_.segments.size(),
+                                                    {{"time of impact (length along the path)", "m", hit_error}},
+                                                    [&](double share) { input_.progress(0.8 + 0.1 * share); });
+    for (Measurement& row :
+         measure<double>(systems_.distances, exact_.points.size(), {{"depth", "m", distance_error, true}},
+                         [&](double share) { input_.progress(0.9 + 0.1 * share); }))
+      rows.push_back(std::move(row));
+    return rows;
   }
 
  private:
   const StudyInput& input_;
   double side_;
-  std::vector<HitSystem> hits_, batches_;
-  std::vector<DistanceSystem> distances_;
+  ExactQueries exact_;
+  std::vector<System<double>> batches_;
+  FieldSystems systems_;
 };
 
 }  // namespace
@@ -197,9 +154,9 @@ StudyResult cellStudy(const StudyInput& input) {
     const double after = before + double(cells) * cells / all;
     study.addField({"sdf_ccd (uniform cells)", lengthText(cell), cell}, options, before, after);
     before = after;
-    study.addGrids(cells);
+    study.addPeers(cells);
   }
-  study.measure(result);
+  result.rows = study.measured();
   return result;
 }
 
@@ -221,7 +178,7 @@ StudyResult maxErrorStudy(const StudyInput& input) {
     study.addField({"sdf_ccd (max_error)", lengthText(*options.max_error), *options.max_error}, options, before, after);
     before = after;
   }
-  study.measure(result);
+  result.rows = study.measured();
   return result;
 }
 

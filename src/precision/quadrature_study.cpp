@@ -6,7 +6,6 @@
 #include "contact_query.h"
 #include "sdf_ccd/field/build_field.h"
 #include "studies.h"
-#include "timing.h"
 
 namespace sdf_ccd::precision {
 namespace {
@@ -15,16 +14,11 @@ constexpr int kQuadratureCells = 64;
 constexpr double kQuadratureSpacing = 0.05;  // of the shell's points [box sides]
 constexpr int kReferencePoints = 10'000;
 
-struct Rule {
-  Label label;
+ContactOptions midpoint(int points) {
   ContactOptions options;
-};
-
-Rule midpoint(int points) {
-  Rule rule{{"midpoint rule", "N = " + std::to_string(points), double(points)}, {}};
-  rule.options.quadrature = Quadrature::kMidpoint;
-  rule.options.midpoint_intervals = points;
-  return rule;
+  options.quadrature = Quadrature::kMidpoint;
+  options.midpoint_intervals = points;
+  return options;
 }
 
 }  // namespace
@@ -48,29 +42,27 @@ StudyResult quadratureStudy(const StudyInput& input) {
 
   double done = 0.0;
   for (const NormalSource normal : {NormalSource::kField, NormalSource::kShell}) {
-    const auto run = [&](ContactOptions options, std::vector<Vector3d>& impulses) {
+    const auto run = [&queries, normal](ContactOptions options, std::vector<Vector3d>& impulses) {
       options.normal = normal;
       for (std::size_t i = 0; i < queries.size(); ++i) impulses[i] = queries[i].integrate(options).on_shell_body.force;
     };
     std::vector<Vector3d> exact(queries.size());
-    run(midpoint(kReferencePoints).options, exact);
+    run(midpoint(kReferencePoints), exact);
     input.progress(0.2 + 0.4 * (done + 0.7));
-    std::vector<Rule> rules;
-    for (const int points : {5, 10, 20, 40}) rules.push_back(midpoint(points));
-    rules.push_back({{"exact rule", ""}, {}});
-    std::vector<std::vector<Vector3d>> found(rules.size(), exact);
-    std::vector<std::function<void()>> tasks;
-    for (std::size_t k = 0; k < rules.size(); ++k) tasks.push_back([&, k] { run(rules[k].options, found[k]); });
-    const std::vector<double> seconds = secondsPerQuery(
-        tasks, queries.size(), [&](double share) { input.progress(0.2 + 0.4 * (done + 0.7 + 0.3 * share)); });
-    for (std::size_t k = 0; k < rules.size(); ++k) {
-      std::vector<double> errors;
-      for (std::size_t i = 0; i < queries.size(); ++i)
-        errors.push_back((found[k][i] - exact[i]).norm() / exact[i].norm());
-      const char* source = normal == NormalSource::kField ? "field" : "shell";
-      result.rows.push_back({rules[k].label, std::string("impulse with normals of the ") + source, "of the impulse",
-                             seconds[k], summarize(std::move(errors))});
+    std::vector<System<Vector3d>> rules;
+    for (const int points : {5, 10, 20, 40}) {
+      rules.push_back({{"midpoint rule", "N = " + std::to_string(points), double(points)},
+                       [run, points](std::vector<Vector3d>& found) { run(midpoint(points), found); }});
     }
+    rules.push_back({{"exact rule", ""}, [run](std::vector<Vector3d>& found) { run({}, found); }});
+    const std::string source = normal == NormalSource::kField ? "field" : "shell";
+    const Quantity<Vector3d> impulse{
+        "impulse with normals of the " + source, "of the impulse",
+        [&](std::size_t i, const Vector3d& found) { return (found - exact[i]).norm() / exact[i].norm(); }};
+    for (Measurement& row : measure<Vector3d>(rules, queries.size(), {impulse}, [&](double share) {
+           input.progress(0.2 + 0.4 * (done + 0.7 + 0.3 * share));
+         }))
+      result.rows.push_back(std::move(row));
     done += 1.0;
   }
   return result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,7 +12,6 @@
 #include "random_inputs.h"
 #include "sdf_ccd/dynamics/simulation.h"
 #include "studies.h"
-#include "timing.h"
 
 namespace sdf_ccd::precision {
 namespace {
@@ -105,36 +105,27 @@ StudyResult stepStudy(const StudyInput& input) {
   for (int i = 0; i < kScenes; ++i) scenes.push_back({uniform(random, 0.05, 0.5), uniform(random, 0.1, 0.5)});
   std::vector<double> phases{0.8, 0.25, 0.08, 0.025};  // ωΔt
   if (!input.quick) phases.push_back(0.008);
-  struct Case {
-    const char* quantity;
-    const char* unit;
-    double (*run)(Scheme, double, const Scene&);
-  };
-  const Case cases[] = {{"persistent contact: deviation", "amplitudes", &restingError},
-                        {"impact without damping: speed of the rebound", "of the speed", &impactError}};
+  using Run = double (*)(Scheme, double, const Scene&);
+  const std::tuple<const char*, const char*, Run> cases[] = {
+      {"persistent contact: deviation", "amplitudes", &restingError},
+      {"impact without damping: speed of the rebound", "of the speed", &impactError}};
   double done = 0.0;
-  for (const Case& of : cases) {
-    std::vector<Measurement> rows;
-    std::vector<std::vector<double>> errors;
-    std::vector<std::function<void()>> tasks;
+  for (const auto& [quantity, unit, run] : cases) {
+    std::vector<System<double>> systems;
     for (const Scheme scheme : {Scheme::kContinuous, Scheme::kDiscrete, Scheme::kImplicit}) {
       for (const double s : phases) {
         const double step = s / kOmega;
-        const std::size_t k = rows.size();
-        tasks.push_back([&, k, scheme, step] {
-          for (std::size_t i = 0; i < scenes.size(); ++i) errors[k][i] = errorOf(of.run, scheme, step, scenes[i]);
-        });
-        rows.push_back({{toString(scheme), fmt::format("{:g} ms", 1e3 * step), step}, of.quantity, of.unit});
+        systems.push_back({{toString(scheme), fmt::format("{:g} ms", 1e3 * step), step},
+                           [&scenes, run = run, scheme, step](std::vector<double>& errors) {
+                             for (std::size_t i = 0; i < scenes.size(); ++i)
+                               errors[i] = errorOf(run, scheme, step, scenes[i]);
+                           }});
       }
     }
-    errors.assign(rows.size(), std::vector<double>(scenes.size()));
-    const std::vector<double> seconds =
-        secondsPerQuery(tasks, scenes.size(), [&](double share) { input.progress(0.5 * (done + share)); });
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      rows[k].seconds = seconds[k];
-      rows[k].error = summarize(errors[k]);
-    }
-    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    for (Measurement& row :
+         measure<double>(systems, scenes.size(), {{quantity, unit, [](std::size_t, double error) { return error; }}},
+                         [&](double share) { input.progress(0.5 * (done + share)); }))
+      result.rows.push_back(std::move(row));
     done += 1.0;
   }
   return result;

@@ -6,7 +6,6 @@ const std::vector<Study>& studies() {
   static const std::vector<Study> all = {
       {"cell", "uniform fields: time of impact and depth over the cell size", &cellStudy},
       {"max-error", "adaptive fields: time of impact and depth over the maximum error", &maxErrorStudy},
-      {"chord", "rotating bodies: time of impact over the chord tolerance", &chordStudy},
       {"spacing", "shells: force and missed depth over the spacing of the points", &spacingStudy},
       {"quadrature", "impulses: midpoint rules and the exact rule", &quadratureStudy},
       {"step", "dynamics: resting and bouncing contact over the time step, per integrator", &stepStudy},
