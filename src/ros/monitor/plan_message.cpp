@@ -17,6 +17,7 @@ static_assert(isKind(PairKind::kRequest, LeftOutPair::REQUEST) &&
                   isKind(PairKind::kEmpty, LeftOutPair::EMPTY) && isKind(PairKind::kNever, LeftOutPair::NEVER) &&
                   isKind(PairKind::kAlways, LeftOutPair::ALWAYS) && isKind(PairKind::kHeld, LeftOutPair::HELD) &&
                   isKind(PairKind::kAtRest, LeftOutPair::AT_REST) &&
+                  isKind(PairKind::kHeldAtRest, LeftOutPair::HELD_AT_REST) &&
                   isKind(PairKind::kMayAtRest, LeftOutPair::MAY_AT_REST),
               "as in the messages");
 

@@ -137,7 +137,7 @@ ContactJoin readJoin(SettingsReader& reader, const ContactJoin& preset) {
   return {std::max(ContactTracker::kJoin, rounded), reader.notNegative("join_distance", preset.distance)};
 }
 
-RequestPermissions readRequests(const SettingsReader& reader) {
+RequestPermissions readRequests(SettingsReader reader) {
   RequestPermissions requests;
   if (reader.has("allow")) {
     try {
