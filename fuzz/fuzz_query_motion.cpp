@@ -2,17 +2,17 @@
 #include <cmath>
 
 #include "motion_request.h"
-#include "sdf_ccd/Verdicts.h"
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd::fuzz {
 namespace {
 
 void check(const QueryMotion::Response& response) {
   require(response.success || !response.message.empty(), "a refusal has a reason");
-  require(response.success || response.verdict == Verdicts::NOT_CHECKED, "a refusal has no verdict");
+  require(response.success || response.verdict == numberOf(Verdict::kNotChecked), "a refusal has no verdict");
   require(!std::isnan(response.error_bound.total), "the error is a number");
   for (const PairContact& pair : response.pairs) {
-    require(pair.verdict != Verdicts::CLEAR, "pairs that are clear are not listed");
+    require(pair.verdict != numberOf(Verdict::kClear), "pairs that are clear are not listed");
   }
 }
 

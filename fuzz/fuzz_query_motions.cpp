@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "motion_request.h"
-#include "sdf_ccd/Verdicts.h"
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd::fuzz {
 namespace {
@@ -34,7 +34,8 @@ void check(const QueryMotions::Request& request, const QueryMotions::Response& r
   for (const CheckedMotion& motion : response.motions) {
     require(motion.error_bound >= 0.0, "bounds are numbers, none is negative");
     require(request.list_pairs || motion.pairs.empty(), "pairs are listed if wanted");
-    for (const CheckedPair& pair : motion.pairs) require(pair.verdict != Verdicts::CLEAR, "listed pairs are not clear");
+    for (const CheckedPair& pair : motion.pairs)
+      require(pair.verdict != numberOf(Verdict::kClear), "listed pairs are not clear");
   }
 }
 

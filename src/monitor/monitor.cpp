@@ -165,8 +165,8 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
 }
 
 /// For a pair that is not due.
-ErrorBound Monitor::Impl::errorOf(int pair) const {
-  ErrorBound error = checkers[static_cast<std::size_t>(pair)].bound();
+ErrorSources Monitor::Impl::errorOf(int pair) const {
+  ErrorSources error = checkers[static_cast<std::size_t>(pair)].bound();
   error.chord += schedule->motionError(pair);
   return error;
 }
@@ -228,7 +228,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
 void Monitor::Impl::summarise(std::size_t end) {
   CycleSummary summary(result, end);
   for (const DuePair& due : schedule->due()) summary.add(due.pair);
-  ErrorBound worst;
+  ErrorSources worst;
   if (schedule->worstSkipped() >= 0) {
     worst = errorOf(schedule->worstSkipped());
     worst.chord += std::max(0.0, schedule->worstError() - worst.total());

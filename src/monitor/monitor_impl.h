@@ -33,7 +33,7 @@ struct Monitor::Impl {
   void checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
                   PairMemory& pair_memory);
   void summarise(std::size_t end);
-  ErrorBound errorOf(int pair) const;
+  ErrorSources errorOf(int pair) const;
   void forget();
 
   std::shared_ptr<const Scene> scene;
@@ -45,11 +45,11 @@ struct Monitor::Impl {
   std::shared_ptr<MonitorMemory> memory;
   MotionShape shape;
   CycleResult result;
-  std::vector<char> is_failed;              // per pair: a body of it could not be built; its result never changes
-  std::vector<int> last_due;                // pairs
-  std::vector<DuePair> queue;               // pairs to test, those that have waited longest first
-  std::vector<int> waited;                  // per pair: in how many cycles it was left over since its last test; negative
-                                            // after a search in vain
+  std::vector<char> is_failed;  // per pair: a body of it could not be built; its result never changes
+  std::vector<int> last_due;    // pairs
+  std::vector<DuePair> queue;   // pairs to test, those that have waited longest first
+  std::vector<int> waited;      // per pair: in how many cycles it was left over since its last test; negative
+                                // after a search in vain
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle

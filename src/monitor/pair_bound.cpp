@@ -25,11 +25,11 @@ double fieldError(const Body& body) {
   return error;
 }
 
-ErrorBound contactBound(const Scene& scene, const PlannedPair& pair) {
+ErrorSources contactBound(const Scene& scene, const PlannedPair& pair) {
   const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
   const bool a_to_b = pair.a_shell_b_field && a.shell->size() > 0 && !b.parts.empty();
   const bool b_to_a = pair.b_shell_a_field && b.shell->size() > 0 && !a.parts.empty();
-  ErrorBound bound;
+  ErrorSources bound;
   if (a_to_b) bound.field = fieldError(b);
   if (b_to_a) bound.field = std::max(bound.field, fieldError(a));
   if (a_to_b && b_to_a) {

@@ -11,7 +11,7 @@ double fieldError(const Body& body);
 
 /// Error bound of the contacts that shells find in fields, before any motion: the field's error and the gap between
 /// points. Zero if the pair has no fields and shells.
-ErrorBound contactBound(const Scene& scene, const PlannedPair& pair);
+ErrorSources contactBound(const Scene& scene, const PlannedPair& pair);
 
 /// Whether there are surfaces that decide a pair: the triangles of both bodies, one of which may have a half-space
 /// instead or as well.

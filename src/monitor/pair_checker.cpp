@@ -23,7 +23,7 @@ std::string whyNoForce(const Body& a, const Body& b) {
   return "no force: neither body has a shell";
 }
 
-void requireFinite(const ErrorBound& error) {
+void requireFinite(const ErrorSources& error) {
   if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
 }
 
@@ -166,7 +166,7 @@ void PairChecker::complete(const CycleMotion& motion, const SweptBodies& bodies,
   memory_ = &memory;
   ContactPoint crossing = result.deepest;
   crossing.depth_error = 0.0;
-  const ErrorBound error = result.error;
+  const ErrorSources error = result.error;
   clear(result);
   result.verdict = Verdict::kContact;
   result.error = error;
@@ -275,7 +275,7 @@ std::optional<double> PairChecker::measure(const CycleMotion& motion, const Swep
 /// Finds contacts by the points of the shells in the fields: with the errors of both, and those of the chords.
 void PairChecker::findContacts(const CycleMotion& motion, const SweptBodies& bodies, const CycleRequest& request,
                                double given_error, const std::optional<ContactPoint>& crossing, PairResult& result) {
-  ErrorBound error = contact_bound_;
+  ErrorSources error = contact_bound_;
   error.chord = result.error.chord;
   if (!roles_.empty()) {
     roles_.setMotion(bodies, result.span, memory_->roles);

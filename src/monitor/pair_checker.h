@@ -101,7 +101,7 @@ class PairChecker {
   double clearance() const { return state_.clearance; }
 
   /// Error bound of the pair's verdict while it is clear, without the motion's error.
-  ErrorBound bound() const { return {0.0, 0.0, 0.0, surfaces_ ? surfaces_->deviation() : 0.0}; }
+  ErrorSources bound() const { return {0.0, 0.0, 0.0, surfaces_ ? surfaces_->deviation() : 0.0}; }
 
  private:
   void takeOff(double margin, PairResult& result) const;
@@ -149,7 +149,7 @@ class PairChecker {
   std::optional<SurfacePair> surfaces_;          // none: the pair cannot be checked
   std::optional<ContactRefinement> refinement_;  // if depths can be measured on the triangles
   std::string why_no_force_;                     // empty if there are forces
-  ErrorBound contact_bound_;                     // of field and gap
+  ErrorSources contact_bound_;                   // of field and gap
 
   PairState state_;
 

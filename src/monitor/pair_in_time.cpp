@@ -63,7 +63,7 @@ double PairChecker::ballClearance(const SweptBodies& bodies, const WaypointSpan&
 /// its force is not known.
 void PairChecker::setIncomplete(const ContactPoint& proof, const CycleMotion& motion, const CycleRequest& request,
                                 PairResult& result) {
-  const ErrorBound error = result.error;
+  const ErrorSources error = result.error;
   clear(result);
   result.error = error;
   result.verdict = Verdict::kContact;

@@ -21,7 +21,7 @@ void clear(PairResult& result) {
   result.peaks.clear();
 }
 
-void setSkipped(const ErrorBound& error, PairResult& result) {
+void setSkipped(const ErrorSources& error, PairResult& result) {
   clear(result);
   result.verdict = Verdict::kClear;
   result.skipped = true;

@@ -11,7 +11,7 @@ namespace sdf_ccd {
 void clear(PairResult& result);
 
 /// Sets the result of a pair that is clear without a test.
-void setSkipped(const ErrorBound& error, PairResult& result);
+void setSkipped(const ErrorSources& error, PairResult& result);
 
 /// Whether the pair's intervals and wrenches are known: they are not if an incomplete contact is only proved.
 bool isTimed(const PairResult& pair);

@@ -12,7 +12,7 @@ CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(resul
   result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = result.incomplete = 0;
 }
 
-void CycleSummary::take(const ErrorBound& error) {
+void CycleSummary::take(const ErrorSources& error) {
   if (error.total() <= result_.error_bound) return;
   result_.error = error;
   result_.error_bound = error.total();
@@ -36,7 +36,7 @@ void CycleSummary::add(int index) {
   result_.contact_error = std::max(result_.contact_error, pair.contact_error.total());
 }
 
-void CycleSummary::addSkipped(int count, const ErrorBound& error) {
+void CycleSummary::addSkipped(int count, const ErrorSources& error) {
   if (count == 0) return;
   worst_.add(Verdict::kClear);
   result_.skipped += count;

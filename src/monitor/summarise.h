@@ -16,7 +16,7 @@ class CycleSummary {
   void add(int pair);
 
   /// Adds pairs that are clear without a test. @param error  the largest of their error bounds.
-  void addSkipped(int count, const ErrorBound& error);
+  void addSkipped(int count, const ErrorSources& error);
 
   /// Adds CycleResult::failed.
   void addFailed();
@@ -25,7 +25,7 @@ class CycleSummary {
   void finish();
 
  private:
-  void take(const ErrorBound& error);
+  void take(const ErrorSources& error);
 
   CycleResult& result_;
   std::size_t end_;

@@ -44,7 +44,7 @@ void SurfaceContacts::completePeaks() {
 }
 
 void SurfaceContacts::boundHiddenDepth(ContactPoint& point) const {
-  const ErrorBound& error = result_.contact_error;
+  const ErrorSources& error = result_.contact_error;
   double hidden = error.field + error.chord + error.root + hiddenDepth(scene_, pair_);
   if (result_.refined) hidden = std::min(hidden, result_.deepest.depth + result_.deepest.depth_error);
   setTimes(result_.intervals, point);

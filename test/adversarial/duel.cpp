@@ -207,7 +207,7 @@ void Duel::judgeDepth(const PairMotion& solid, const PairResult& result, const s
   if (result.intervals.empty() || !a_.is_convex || !b_.is_convex) return;
   const ContactPoint& deepest = result.deepest;
   const bool by_fields = result.contact_error.total() > 0.0;  // else the location comes from triangles
-  const ErrorBound& told = by_fields ? result.contact_error : result.error;
+  const ErrorSources& told = by_fields ? result.contact_error : result.error;
   const Real time = deepest.time;
   const auto in = [&](const Convex& piece, const LongPose& X) {
     return signedDistance(piece, X.R.transpose() * (deepest.p_W.cast<Real>() - X.p));

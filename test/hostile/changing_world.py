@@ -29,7 +29,7 @@ class ChangingMap:
     arrives any more."""
 
     def __init__(self, rospy, frame):
-        from sdf_ccd.msg import MonitorState, Plan, Verdicts
+        from sdf_ccd.msg import MonitorState, Plan, Verdict
         from std_msgs.msg import Header
         far, wall = voxels((3, -1, 0), (3.05, 1, 1)), voxels((1.5, -1, 0), (1.55, 1, 1))
         self.data = {is_there: binary_data(octree({**dict.fromkeys(wall, is_there), **dict.fromkeys(far, True)}))
@@ -54,7 +54,7 @@ class ChangingMap:
 
         def read_state(state):
             with self.changed:
-                self.unchecked = state.cycle.not_checked > 0 or state.verdict == Verdicts.NOT_CHECKED
+                self.unchecked = state.cycle.not_checked > 0 or state.verdict == Verdict.NOT_CHECKED
                 self.changed.notify_all()
 
         rospy.Subscriber('collision_monitor/plan', Plan, read_plan, queue_size=100)

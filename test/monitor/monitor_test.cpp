@@ -123,7 +123,7 @@ bool same(const Wrench& a, const Wrench& b) {
   return a.force == b.force && a.torque == b.torque;
 }
 
-bool same(const ErrorBound& a, const ErrorBound& b) {
+bool same(const ErrorSources& a, const ErrorSources& b) {
   return a.field == b.field && a.chord == b.chord && a.root == b.root && a.gap == b.gap;
 }
 

@@ -9,7 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from monitor_case import MovingBalls, Recorder, trajectory, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, Plan, Verdicts
+from sdf_ccd.msg import ContactArray, MonitorState, Plan, Verdict
 from sdf_ccd.srv import QueryMotion
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
@@ -45,10 +45,10 @@ class AwaitedMapTest(MasterCase):
             first = heard.find(reasons)
             self.assertIsNotNone(first, name)
             self.assertEqual(reasons(first), ['no map has been received on /map yet'])
-            self.assertEqual(first.verdict, Verdicts.NOT_CHECKED)
+            self.assertEqual(first.verdict, Verdict.NOT_CHECKED)
             self.assertEqual(first.unchecked[0].pairs, 2)  # with both balls
         self.assertIsNotNone(states.find_new(
-            lambda m: m.verdict == Verdicts.NOT_CHECKED and 'octomap' in str(m.unchecked)))
+            lambda m: m.verdict == Verdict.NOT_CHECKED and 'octomap' in str(m.unchecked)))
         plan = plans.find(lambda m: any(body.failure for body in m.bodies))
         self.assertIsNotNone(plan)
         self.assertIn('no map has been received on /map yet', ' '.join(body.failure for body in plan.bodies))
@@ -56,13 +56,13 @@ class AwaitedMapTest(MasterCase):
         query = wait_for_service('/waits/query_motion', QueryMotion)
         answer = query(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(answer.verdict, Verdict.NOT_CHECKED)
         for heard in self.contacts.values():
-            self.assertFalse([m for m in heard.messages if m.verdict == Verdicts.CLEAR])
+            self.assertFalse([m for m in heard.messages if m.verdict == Verdict.CLEAR])
 
     def test_2_a_map_that_holds_nothing_is_one(self):
         self.maps.publish(message(FREE))
-        found = self.contacts['waits'].find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0)
+        found = self.contacts['waits'].find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0)
         self.assertIsNotNone(found)
         self.assertEqual(reasons(found), [])
         self.assertIsNotNone(self.bodies_are(DiagnosticStatus.OK))
@@ -81,7 +81,7 @@ class AwaitedMapTest(MasterCase):
             sender = threading.Thread(target=send, daemon=True)
             self.robot.ball = 0.0
             sender.start()
-            self.assertIsNotNone(heard.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
+            self.assertIsNotNone(heard.find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0))
             heard.clear()
             time.sleep(1.5 * MAX_AGE)  # it does not age while it is sent
             self.assertFalse([m for m in heard.messages if reasons(m)])
@@ -89,7 +89,7 @@ class AwaitedMapTest(MasterCase):
             sender.join()
             self.robot.ball = 0.5  # only now: voxels that the robot occupies at a map's stamp are ignored
             self.assertIsNotNone(heard.find_new(touches_map, 10.0))
-            found = heard.find_new(lambda m: reasons(m) and m.verdict == Verdicts.NOT_CHECKED, 10.0)
+            found = heard.find_new(lambda m: reasons(m) and m.verdict == Verdict.NOT_CHECKED, 10.0)
             self.assertIsNotNone(found)
             self.assertIn('is older than 2 s', reasons(found)[0])
         # The other monitor has no max_age, so its map does not age.
@@ -99,7 +99,7 @@ class AwaitedMapTest(MasterCase):
         heard = self.contacts['watches']
         self.robot.ball = 0.0
         self.maps.publish(message(FREE))
-        self.assertIsNotNone(heard.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
+        self.assertIsNotNone(heard.find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0))
         refused = message(FREE)
         refused.header.frame_id = 'ball'
         refused.resolution = 1e-4  # too small for the space near the robot

@@ -14,7 +14,7 @@ import rospy
 from sensor_msgs.msg import JointState
 
 from own_master import use_own_master
-from sdf_ccd.msg import Verdicts
+from sdf_ccd.msg import Verdict
 
 SOURCE = os.path.abspath(sys.argv.pop())
 RATE, SECONDS = 50.0, 4.0  # of the bag
@@ -52,8 +52,8 @@ class BagLaunch(unittest.TestCase):
                     verdicts = [message.verdict for _, message, _ in
                                 contacts.read_messages('/collision_monitor/contacts')]
                 self.assertIn('no body is named Tür', log)
-                self.assertIn(Verdicts.CONTACT, verdicts, start + '\n' + log)
-                self.assertIn(Verdicts.CLEAR, verdicts, start + '\n' + log)
+                self.assertIn(Verdict.CONTACT, verdicts, start + '\n' + log)
+                self.assertIn(Verdict.CLEAR, verdicts, start + '\n' + log)
                 os.remove(record)
 
 

@@ -11,7 +11,7 @@ from shape_msgs.msg import Mesh, MeshTriangle
 
 from monitor_case import MovingBalls, Recorder, box, pose, trajectory, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, SceneChange, Verdict
 from sdf_ccd.srv import QueryMotion, UpdateScene
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
@@ -27,7 +27,7 @@ def tangle(triangles, seed):
 
 
 def is_outdated(m):
-    return m.verdict == Verdicts.NOT_CHECKED and any('older than' in body.reason for body in m.unchecked)
+    return m.verdict == Verdict.NOT_CHECKED and any('older than' in body.reason for body in m.unchecked)
 
 
 class BlockedMapTest(MasterCase):
@@ -55,7 +55,7 @@ class BlockedMapTest(MasterCase):
     def setUp(self):
         self.robot.ball = 0.0
         type(self).sent = FREE
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR))
 
     def assert_map_is_seen(self, answers):
         """A wall that comes is touched, and a map that does not come any more is not used."""
@@ -67,7 +67,7 @@ class BlockedMapTest(MasterCase):
         self.assertIsNotNone(self.contacts.find(is_outdated, MAX_AGE + 1.0), answers)
         type(self).sent = FREE
         self.robot.ball = 0.0
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 5.0), answers)
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR, 5.0), answers)
 
     def storm(self, *clients):
         """Each client sends its changes, one after the other, until the map has been tested. Returns the answers."""
@@ -107,13 +107,13 @@ class BlockedMapTest(MasterCase):
 
     def test_3_no_query_uses_an_outdated_map(self):
         query = wait_for_service('/monitor/query_motion', QueryMotion)
-        self.assertEqual(query(trajectory('slide', [0.0, 0.3])).verdict, Verdicts.CLEAR)
+        self.assertEqual(query(trajectory('slide', [0.0, 0.3])).verdict, Verdict.CLEAR)
         type(self).sent = None
         end = time.monotonic() + MAX_AGE + 5.0
         clear_until = 0.0
         while time.monotonic() < end:
             answer = query(trajectory('slide', [0.0, 0.3]))
-            if answer.verdict == Verdicts.CLEAR:
+            if answer.verdict == Verdict.CLEAR:
                 clear_until = time.monotonic()
             time.sleep(0.05)
         self.assertLess(clear_until, end - 4.0)

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "ros/loop_case.h"
+#include "ros/messages/conversions.h"
 #include "ros/monitor/proximity_measure.h"
-#include "sdf_ccd/Verdicts.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd::changing_loop_test {
@@ -49,8 +49,8 @@ TEST_F(ChangingLoopTest, WhatChangesAllTheTimeIsCheckedAgainstAFrameThatLagsBehi
     plate().X_frame_B.translation().y() = i % 4 == 0 ? 0.0 : 0.01;
     change();
   }
-  EXPECT_GT(verdicts(Verdicts::CONTACT), 3);
-  EXPECT_EQ(last().verdict, Verdicts::CLEAR) << last().reason;
+  EXPECT_GT(verdicts(numberOf(Verdict::kContact)), 3);
+  EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << last().reason;
 }
 
 /// The next cycle need not test them, though a link moves.
@@ -80,7 +80,7 @@ TEST_F(ChangingLoopTest, WhatAppearsIsTestedInAdvance) {
   EXPECT_GT(pairs, 40u);
   for (const std::size_t back : {1u, 2u}) {
     const ContactArray& said = said_[said_.size() - back];
-    EXPECT_EQ(said.verdict, Verdicts::CLEAR) << said.reason;
+    EXPECT_EQ(said.verdict, numberOf(Verdict::kClear)) << said.reason;
     EXPECT_LT(said.cycle.checked, 3u) << said.cycle.skipped << " skipped";
   }
 }
@@ -124,15 +124,15 @@ TEST_F(ChangingLoopTest, AMapThatIsTooOldIsNotChecked) {
     int i = has_tile ? 0 : 100;
     if (!has_tile) world->map_age->set(ros::Time(10.0 + 100 * kPeriod));
     for (const int end = i + 25; i < end; ++i) cycle(i);
-    EXPECT_EQ(last().verdict, Verdicts::CLEAR) << last().reason;
+    EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << last().reason;
     for (const int end = i + 10; i < end; ++i) cycle(i);
-    EXPECT_EQ(last().verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(last().verdict, numberOf(Verdict::kNotChecked));
     ASSERT_FALSE(last().unchecked.empty());
     EXPECT_EQ(last().unchecked[0].reason, "the last map on /map is older than 1 s (octomap/max_age)");
     EXPECT_EQ(last().cycle.not_checked, has_tile ? 2u : 3u) << "only the tile's pairs, if there is a tile";
     world->map_age->set(ros::Time(10.0 + i * kPeriod));
     for (const int end = i + 10; i < end; ++i) cycle(i);
-    EXPECT_EQ(last().verdict, Verdicts::CLEAR) << "the same map was received again";
+    EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << "the same map was received again";
   }
 }
 

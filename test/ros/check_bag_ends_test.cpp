@@ -10,9 +10,9 @@
 #include <rosbag/view.h>
 
 #include "ros/check_bag_case.h"
+#include "ros/messages/conversions.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::check_bag_ends_test {
 
@@ -141,7 +141,7 @@ TEST_F(CheckBag, AMessageThatHoldsNoVerdictIsRefused) {
   message.verdict = 7;
   write("seven.bag");
   expectRefused("plot-bag seven.bag --out no", "a message about contacts is damaged: verdict 7");
-  message.verdict = Verdicts::CLEAR;
+  message.verdict = numberOf(Verdict::kClear);
   message.cycle.error_bound.total = std::nan("");
   write("nan.bag");
   expectRefused("plot-bag nan.bag --out no", "error bound nan");

@@ -9,11 +9,11 @@
 #include <rosbag/view.h>
 
 #include "ros/check_bag_case.h"
+#include "ros/messages/conversions.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::check_bag_test {
 
@@ -202,7 +202,7 @@ ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
   ContactArray message;
   message.cycle.start = ros::Time(end - 0.1);
   message.header.stamp = message.cycle.complete_until = ros::Time(end);
-  message.verdict = Verdicts::CONTACT;
+  message.verdict = numberOf(Verdict::kContact);
   message.cycle.checked = 1;
   message.cycle.error_bound.total = 0.001;
   message.contacts.resize(1);
@@ -211,7 +211,7 @@ ContactArray toldOf(std::uint64_t id, bool begins, double begin, double end) {
   contact.begins = begins;
   contact.body_a = "a";
   contact.body_b = "b";
-  contact.verdict = Verdicts::CONTACT;
+  contact.verdict = numberOf(Verdict::kContact);
   contact.begin = ros::Time(begin);
   contact.end = ros::Time(end);
   return message;
@@ -355,12 +355,12 @@ TEST_F(CheckBag, SilenceOfAllIsSaidInTheBagAndNoCycle) {
   rosbag::Bag bag(path("made/checked.bag").string());
   for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
     if (const auto state = message.instantiate<MonitorState>()) {
-      not_checked += state->verdict == Verdicts::NOT_CHECKED && state->reason == "no new transforms";
+      not_checked += state->verdict == numberOf(Verdict::kNotChecked) && state->reason == "no new transforms";
     }
     const auto contacts = message.instantiate<ContactArray>();
     if (!contacts || contacts->cycle.start != contacts->header.stamp) continue;
     ++silent;
-    EXPECT_EQ(contacts->verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(contacts->verdict, numberOf(Verdict::kNotChecked));
     EXPECT_EQ(contacts->reason, "no new transforms");
     EXPECT_TRUE(contacts->pairs.empty());
     EXPECT_NEAR(contacts->header.stamp.toSec(), kBegin + 4.0, 2.0 * kSamplePeriod);

@@ -1,6 +1,7 @@
 // What the messages of a complete monitor's cycles say.
 
 #include "ros/monitor/cycle_messages.h"
+#include "ros/messages/conversions.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,6 @@
 #include "ros/monitor/plan_message.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::cycle_messages_test {
 
@@ -47,7 +47,7 @@ TEST_F(CycleMessagesTest, ACheckThatFailsIsToldOfItsWholeTime) {
     sendFoot(now);
     ASSERT_EQ(step(now), i == 0 ? Step::kWaiting : Step::kCycle);
     if (i == 0) continue;
-    EXPECT_EQ(last().verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(last().verdict, numberOf(Verdict::kNotChecked));
     EXPECT_EQ(last().cycle.not_checked, 3u);
     if (!end.isZero()) {
       EXPECT_EQ(last().cycle.start, end);
@@ -74,7 +74,7 @@ TEST_F(CycleMessagesTest, TheWrenchOnWhatALinkHoldsIsAboutTheLinksOrigin) {
     sendHand(10.0 + i * kPeriod, kPlate - kRadius);
     step(10.0 + i * kPeriod);
   }
-  ASSERT_EQ(last().verdict, Verdicts::CONTACT) << last().reason;
+  ASSERT_EQ(last().verdict, numberOf(Verdict::kContact)) << last().reason;
   const geometry_msgs::WrenchStamped wrench = toWrenchStamped(*loop_, 0);
   EXPECT_EQ(wrench.header.frame_id, "hand");
   const double force = wrench.wrench.force.x;
@@ -96,7 +96,7 @@ TEST_F(CycleMessagesTest, BodiesThatWereNotBuiltAreNamedInEachCycle) {
   }
   ASSERT_GE(said_.size(), 2u);
   for (const ContactArray& said : said_) {
-    EXPECT_EQ(said.verdict, Verdicts::NOT_CHECKED);
+    EXPECT_EQ(said.verdict, numberOf(Verdict::kNotChecked));
     EXPECT_EQ(said.cycle.not_checked, 3u);
     EXPECT_TRUE(said.pairs.empty());
     ASSERT_EQ(said.unchecked.size(), 2u);
@@ -148,7 +148,7 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
   }
   const ContactArray said = toContactArray(*loop_);
   ASSERT_EQ(said.pairs.size(), 1u);
-  EXPECT_EQ(said.verdict, Verdicts::CONTACT);
+  EXPECT_EQ(said.verdict, numberOf(Verdict::kContact));
   EXPECT_EQ(said.cycle.incomplete, 1u);
   EXPECT_TRUE(said.pairs[0].incomplete);
   EXPECT_NE(said.pairs[0].reason.find("incomplete"), std::string::npos);
@@ -170,7 +170,7 @@ TEST_F(CycleMessagesTest, WhyAPairOfKnownBodiesIsNotCheckedIsSaid) {
     sendFoot(10.0 + i * kPeriod, 0.15);
     step(10.0 + i * kPeriod);
   }
-  ASSERT_EQ(last().verdict, Verdicts::NOT_CHECKED);
+  ASSERT_EQ(last().verdict, numberOf(Verdict::kNotChecked));
   ASSERT_EQ(last().pairs.size(), 1u);
   ASSERT_NE(last().pairs[0].reason, "");
   EXPECT_EQ(uncheckedPair(*loop_), "hand - foot: " + last().pairs[0].reason);
@@ -189,7 +189,7 @@ TEST_F(CycleMessagesTest, ValuesThatWereNotComputedAreNoNumbers) {
     loop_->step(ros::Time(10.0 + i * kPeriod), nothing);
   }
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
-  EXPECT_EQ(state.verdict, Verdicts::CONTACT);
+  EXPECT_EQ(state.verdict, numberOf(Verdict::kContact));
   EXPECT_TRUE(std::isnan(state.max_depth) && std::isnan(state.max_force) && std::isnan(state.min_clearance));
 }
 
@@ -204,7 +204,7 @@ TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
     EXPECT_EQ(state.contacts, last().contacts.size());
     EXPECT_EQ(state.max_depth > 0.0, !last().pairs.empty());
     EXPECT_EQ(state.max_force > 0.0, !last().pairs.empty());
-    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == Verdicts::CLEAR);
+    EXPECT_EQ(state.min_clearance > 0.0, last().verdict == numberOf(Verdict::kClear));
     told.insert(told.end(), last().contacts.begin(), last().contacts.end());
   }
   ASSERT_GT(told.size(), 3u);
@@ -217,7 +217,7 @@ TEST_F(CycleMessagesTest, AContactHasOneIdFromItsBeginToItsEnd) {
   }
   EXPECT_NEAR((told.back().begin - ros::Time(10.0)).toSec(), (kPlate - kPlateHalf - kRadius) / 0.03 * kPeriod, 1e-3);
   EXPECT_NEAR((told.back().end - ros::Time(10.0)).toSec(), (kPlate + kPlateHalf + kRadius) / 0.03 * kPeriod, 1e-3);
-  EXPECT_EQ(told.back().verdict, Verdicts::CONTACT);
+  EXPECT_EQ(told.back().verdict, numberOf(Verdict::kContact));
   EXPECT_GT(told.back().max_force, 0.0);
   EXPECT_EQ(told.back().cycles, told.size());
 }

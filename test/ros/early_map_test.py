@@ -7,7 +7,7 @@ import rospy
 
 from monitor_case import MovingBalls, Recorder
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, Verdicts
+from sdf_ccd.msg import ContactArray, Verdict
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
 KINDS = ('free', 'occupied_near')
@@ -28,7 +28,7 @@ class EarlyMapTest(MasterCase):
         cls.contacts = {kind: Recorder('/%s/contacts' % kind, ContactArray, PATIENCE) for kind in KINDS}
 
     def assert_clear(self, kind):
-        self.assertIsNotNone(self.contacts[kind].find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
+        self.assertIsNotNone(self.contacts[kind].find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0))
 
     def assert_touches(self, kind):
         self.assertIsNotNone(self.contacts[kind].find_new(touches_map, 10.0))

@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 from monitor_case import Recorder, MovingBalls, pair_of, touches, trajectory, wait_for_service
 from own_master import PATIENCE, MasterCase
-from sdf_ccd.msg import ContactArray, Plan, Verdicts
+from sdf_ccd.msg import ContactArray, Plan, Verdict
 from sdf_ccd.srv import QueryMotion
 
 RADIUS, DEPTH, STIFFNESS = 0.1, 0.005, 1e6    # of the ball, of it in the plate [m]; [N/m^3]
@@ -85,7 +85,7 @@ class ForcesTest(MasterCase):
         # Each cycle was checked, also those during which they were built and adopted.
         checked = [m for m in contacts.messages if m.pairs or m.reason == '']
         self.assertTrue(checked)
-        self.assertFalse([m.reason for m in checked[1:] if m.verdict != Verdicts.CONTACT][:3])
+        self.assertFalse([m.reason for m in checked[1:] if m.verdict != Verdict.CONTACT][:3])
         first = plans.messages[0]
         self.assertIn('its field and shell are being built', first.part_reasons)
         built = plans.find(lambda m: 'its field and shell are being built' not in str(m.bodies))
@@ -110,7 +110,7 @@ class ForcesTest(MasterCase):
         self.assertIn(reason, plans.find(lambda m: True).part_reasons)
         query = wait_for_service('/none/query_motion', QueryMotion)
         answer = query(trajectory('slide', [-0.5, 0.0]))
-        self.assertTrue(answer.success and answer.verdict == Verdicts.CONTACT, answer)
+        self.assertTrue(answer.success and answer.verdict == Verdict.CONTACT, answer)
         self.assertEqual(answer.pairs[0].reason, 'no force: ball: ' + reason)
         self.assertGreater(answer.pairs[0].first_contact.to_sec(), 0.5)
         time.sleep(2.0)
@@ -121,10 +121,10 @@ class ForcesTest(MasterCase):
         query = wait_for_service('/query/query_motion', QueryMotion)
         while True:
             answer = query(trajectory('slide', [-0.5, 0.0]))
-            if answer.verdict != Verdicts.NOT_CHECKED:
+            if answer.verdict != Verdict.NOT_CHECKED:
                 break
             time.sleep(0.01)
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertFalse(math.isnan(answer.pairs[0].wrench_on_a.force.x), answer)
         self.assertEqual(answer.pairs[0].reason, '')
 

@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 
 from monitor_case import Recorder, ball_transforms
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, Verdicts
+from sdf_ccd.msg import ContactArray, MonitorState, Verdict
 
 SOURCE = os.path.abspath(sys.argv.pop())
 RATE, SECONDS = 50.0, 3.0  # of the bag
@@ -63,7 +63,7 @@ class Lifecycle(MasterCase):
         for recorder in (self.states, self.contacts):
             self.assertIsNotNone(recorder.find(lambda m: m.reason == reason))
         self.assertIsNotNone(log.find(lambda m: m.msg.startswith('Not checked: ' + reason)))
-        self.assertTrue(all(m.verdict == Verdicts.NOT_CHECKED for m in self.states.messages))
+        self.assertTrue(all(m.verdict == Verdict.NOT_CHECKED for m in self.states.messages))
         self.assertIsNone(self.monitor.poll())
 
     def test_2_a_bag_at_its_own_speed_and_ten_times_as_fast(self):
@@ -73,7 +73,7 @@ class Lifecycle(MasterCase):
             self.assertTrue(self.contacts.wait(lambda all: len(self.ended(all)) == 1), options)
             contact, = self.ended(self.contacts.messages)
             self.assertEqual({contact.body_a, contact.body_b}, {'ball', 'plate'})
-            self.assertEqual(contact.verdict, Verdicts.CONTACT)
+            self.assertEqual(contact.verdict, Verdict.CONTACT)
             self.assertFalse(contact.seen_at_samples)
             self.assertFalse(contact.is_lost)
             self.assertAlmostEqual(contact.begin.to_sec(), 1000 + SECONDS / 2 - 0.5 / RATE, delta=0.5 / RATE)
@@ -94,7 +94,7 @@ class Lifecycle(MasterCase):
         self.contacts.clear()
         for _ in range(2):
             player = self.start_player('--wait-for-subscribers')
-            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
             self.kill(player)
             self.contacts.clear()
         self.play()
@@ -117,7 +117,7 @@ class Lifecycle(MasterCase):
                 tf.publish(ball_transforms(stamp, 0.3 if i < 50 else 0.7))
                 time.sleep(0.02)
             # Existing connections need no master.
-            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CONTACT))
+            self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CONTACT))
             self.assertIsNone(self.monitor.poll())
             if self.master.poll() is not None:
                 self.start_master()
@@ -126,8 +126,8 @@ class Lifecycle(MasterCase):
         # By more than a ros::Duration holds, 2^31 s.
         clock = rospy.Publisher('/clock', Clock, queue_size=10)
         tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
-        for begin, verdict in ((3000.0, Verdicts.CLEAR), (4294967200.0, Verdicts.NOT_CHECKED),
-                               (4000.0, Verdicts.CLEAR)):
+        for begin, verdict in ((3000.0, Verdict.CLEAR), (4294967200.0, Verdict.NOT_CHECKED),
+                               (4000.0, Verdict.CLEAR)):
             self.contacts.clear()
             for i in range(150):
                 stamp = rospy.Time.from_sec(begin + 0.02 * i)

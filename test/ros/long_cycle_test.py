@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 
 from monitor_case import MovingBalls, Recorder
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, Verdicts
+from sdf_ccd.msg import ContactArray, MonitorState, Verdict
 
 LIMIT = 0.01  # max_latency [s]
 
@@ -33,11 +33,11 @@ class LongCycleTest(MasterCase):
         scales = Recorder('/collision_monitor/velocity_scale', Float64, PATIENCE)
         balls = MovingBalls()
         threading.Thread(target=swing, args=(balls,), daemon=True).start()  # of balls at rest the forces are known
-        self.assertIsNotNone(contacts.find(lambda m: m.verdict == Verdicts.CONTACT))
+        self.assertIsNotNone(contacts.find(lambda m: m.verdict == Verdict.CONTACT))
         state = states.find_new(lambda m: m.reason.startswith('a cycle has been running for'))
         self.assertIsNotNone(state)
-        self.assertEqual(state.verdict, Verdicts.NOT_CHECKED)
-        self.assertIsNotNone(states.find_new(lambda m: m.verdict == Verdicts.CONTACT and m.cycle.run_time > LIMIT))
+        self.assertEqual(state.verdict, Verdict.NOT_CHECKED)
+        self.assertIsNotNone(states.find_new(lambda m: m.verdict == Verdict.CONTACT and m.cycle.run_time > LIMIT))
         self.assertIsNotNone(scales.find_new(lambda m: m.data == 0.0))
 
 

@@ -13,7 +13,7 @@ from std_srvs.srv import Empty
 
 from monitor_case import MovingBalls, Recorder, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdict
 from sdf_ccd.srv import UpdateScene
 from voxel_maps import Octomap, message, touches_map
 
@@ -65,7 +65,7 @@ class MapMemoryTest(MasterCase):
         """The map anew, with the ball beside it."""
         self.robot.ball = 0.0
         type(self).voxels = block(-4, 20, False)
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 20.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR, 20.0))
         time.sleep(0.3)
 
     def show(self, voxels):
@@ -96,11 +96,11 @@ class MapMemoryTest(MasterCase):
         time.sleep(0.8)
         self.assertTrue(touches_map(self.contacts.find_new(lambda m: True)))
         self.show({})
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0))
 
     def test_what_becomes_occupied_beside_the_robot_is_its_picture(self):
         self.show(block(-1, 1))
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 10.0))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR, 10.0))
         self.assertEqual(self.states.find_new(lambda m: True).map_voxels_unproven, 0)
 
     def test_what_the_first_map_shows_beside_the_robot_is_counted(self):
@@ -138,11 +138,11 @@ class MapMemoryTest(MasterCase):
         self.contacts.clear()
         self.creep(0.2, 0.4, 0.4)
         time.sleep(0.5)
-        self.assertFalse([m.verdict for m in self.contacts.messages if m.verdict != Verdicts.CLEAR])
+        self.assertFalse([m.verdict for m in self.contacts.messages if m.verdict != Verdict.CLEAR])
         # Without the rule it is the cup that the ball touches.
         check = SceneChange(operation=SceneChange.CHECK, body_a='ball', body_b='cup')
         self.assertTrue(self.update(changes=[check]).success)
-        found = self.contacts.find_new(lambda m: m.verdict == Verdicts.CONTACT, 10.0)
+        found = self.contacts.find_new(lambda m: m.verdict == Verdict.CONTACT, 10.0)
         self.assertIsNotNone(found)
         self.assertFalse(touches_map(found))
         # Without the cup, the voxels are an obstacle in the same version.

@@ -12,7 +12,7 @@ import rospy
 import rostest
 
 from monitor_case import MovingBalls, Recorder, box, pose, touches, wait_for_service
-from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdict
 from sdf_ccd.srv import GetPlan, UpdateScene
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
@@ -51,7 +51,7 @@ class MapTest(unittest.TestCase):
         time.sleep(0.3)
 
     def find_clear(self, version):
-        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdicts.CLEAR)
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdict.CLEAR)
 
     def find_touching_map(self):
         return self.contacts.find_new(touches_map)

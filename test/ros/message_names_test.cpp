@@ -1,7 +1,9 @@
-// A node may include the library and all messages: none of their names is taken twice. Verdicts have the same numbers.
+// A node may include the library and all messages but Verdict.h: no other name is taken twice, and the numbers of that
+// message are those of the library's enumeration, which has its name.
 
 #include <gtest/gtest.h>
 
+#include "ros/messages/conversions.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/GetPlan.h"
 #include "sdf_ccd/MonitorState.h"
@@ -9,21 +11,29 @@
 #include "sdf_ccd/QueryMotions.h"
 #include "sdf_ccd/QueryPoints.h"
 #include "sdf_ccd/UpdateScene.h"
-#include "sdf_ccd/Verdicts.h"
 #include "sdf_ccd/WaysOut.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
 #include "sdf_ccd/sdf_ccd.h"
+#define Verdict VerdictMessage
+#include "sdf_ccd/Verdict.h"
+#undef Verdict
 
 namespace sdf_ccd::message_names_test {
 
 TEST(Messages, AZeroedOneSaysNotChecked) {
-  EXPECT_EQ(PairContact().verdict, Verdicts::NOT_CHECKED);
-  EXPECT_EQ(ContactArray().verdict, Verdicts::NOT_CHECKED);
-  EXPECT_EQ(MonitorState().verdict, Verdicts::NOT_CHECKED);
-  EXPECT_EQ(QueryMotionResponse().verdict, Verdicts::NOT_CHECKED);
-  EXPECT_EQ(CheckedMotion().verdict, Verdicts::NOT_CHECKED);
-  EXPECT_EQ(static_cast<int>(Verdict::kNotChecked), Verdicts::NOT_CHECKED);
+  EXPECT_EQ(PairContact().verdict, numberOf(Verdict::kNotChecked));
+  EXPECT_EQ(ContactArray().verdict, numberOf(Verdict::kNotChecked));
+  EXPECT_EQ(MonitorState().verdict, numberOf(Verdict::kNotChecked));
+  EXPECT_EQ(QueryMotionResponse().verdict, numberOf(Verdict::kNotChecked));
+  EXPECT_EQ(CheckedMotion().verdict, numberOf(Verdict::kNotChecked));
+}
+
+TEST(Messages, VerdictsHaveTheLibrarysNumbers) {
+  EXPECT_EQ(numberOf(Verdict::kNotChecked), VerdictMessage::NOT_CHECKED);
+  EXPECT_EQ(numberOf(Verdict::kClear), VerdictMessage::CLEAR);
+  EXPECT_EQ(numberOf(Verdict::kUncertain), VerdictMessage::UNCERTAIN);
+  EXPECT_EQ(numberOf(Verdict::kContact), VerdictMessage::CONTACT);
 }
 
 /// As in moveit_msgs/CollisionObject, whose users may write the numbers.

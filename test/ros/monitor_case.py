@@ -10,7 +10,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdict
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest
 
 RADIUS, PLATE = 0.02, 0.4995         # of the balls of sliders.urdf, and x of the plate's face [m]
@@ -147,7 +147,7 @@ class MonitorCase(unittest.TestCase):
         assert Recorder('/collision_monitor/plan', Plan).find(
             lambda m: any(body.name == 'plate' for body in m.bodies), 60.0), 'no plan'
         end = time.monotonic() + 30.0
-        while cls.contacts.find(lambda m: m.verdict == Verdicts.CLEAR, 0.0) is None:
+        while cls.contacts.find(lambda m: m.verdict == Verdict.CLEAR, 0.0) is None:
             assert time.monotonic() < end, 'no complete cycle'
             cls.send(0.0)
 

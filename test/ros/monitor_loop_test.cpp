@@ -1,6 +1,7 @@
 // Cycles of a complete monitor, from transforms to messages.
 
 #include "ros/monitor/monitor_loop.h"
+#include "ros/messages/conversions.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@
 #include "ros/loop_case.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::monitor_loop_test {
 
@@ -20,7 +20,7 @@ using namespace test;
 
 /// Whether a message reports that there was no contact at a time.
 bool saysClearAt(const ContactArray& contacts, double time) {
-  return contacts.verdict == Verdicts::CLEAR && contacts.cycle.start.toSec() <= time &&
+  return contacts.verdict == numberOf(Verdict::kClear) && contacts.cycle.start.toSec() <= time &&
          time <= contacts.cycle.complete_until.toSec();
 }
 
@@ -34,11 +34,11 @@ TEST_F(MonitorLoopTest, AHandThatWasStaticIsCheckedWhenItMoves) {
     step(now);
     if (i > 20 && i % 5 == 3) crossing = now - 0.5 * kPeriod;
     if (crossing > 0.0 && i % 5 == 3) {
-      EXPECT_EQ(last().verdict, Verdicts::CONTACT) << i;
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kContact)) << i;
     }
   }
-  EXPECT_EQ(verdicts(Verdicts::NOT_CHECKED), 1);  // where it changes
-  EXPECT_GE(verdicts(Verdicts::CONTACT), 8);
+  EXPECT_EQ(verdicts(numberOf(Verdict::kNotChecked)), 1);  // where it changes
+  EXPECT_GE(verdicts(numberOf(Verdict::kContact)), 8);
   for (const ContactArray& said : said_) EXPECT_FALSE(saysClearAt(said, crossing));
 }
 
@@ -50,10 +50,10 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
     if (i == 25) sendHand(now, kPlate - kRadius, true);
     step(now);
     if (i == 19) {
-      EXPECT_EQ(last().verdict, Verdicts::CLEAR);
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kClear));
     }
     if (i > 20 && i < 25) {
-      EXPECT_EQ(last().verdict, Verdicts::NOT_CHECKED);
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kNotChecked));
     }
     if (i == 25) {
       EXPECT_EQ(last().pairs.size(), 0u);
@@ -64,7 +64,7 @@ TEST_F(MonitorLoopTest, AHandThatBecomesStaticIsCheckedThere) {
       EXPECT_NEAR(last().unchecked[0].since.toSec(), 10.0 + 19 * kPeriod, 1e-6);
     }
     if (i > 25) {
-      EXPECT_EQ(last().verdict, Verdicts::CONTACT) << i;
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kContact)) << i;
     }
   }
 }
@@ -78,11 +78,11 @@ TEST_F(MonitorLoopTest, AHandThatIsHandedOverIsNotCheckedMeanwhile) {
     if (i >= 11) send(stampedTransform("table", "hand", now, 0.0));  // behind the plate
     step(now);
     if (i >= 12) {
-      EXPECT_EQ(last().verdict, Verdicts::CLEAR) << i;
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << i;
     }
   }
-  ASSERT_EQ(verdicts(Verdicts::NOT_CHECKED), 2);  // delayed, then changed
-  EXPECT_EQ(verdicts(Verdicts::CONTACT), 0);
+  ASSERT_EQ(verdicts(numberOf(Verdict::kNotChecked)), 2);  // delayed, then changed
+  EXPECT_EQ(verdicts(numberOf(Verdict::kContact)), 0);
 }
 
 TEST_F(MonitorLoopTest, OneFrameWithTwoClocksDoesNotSilenceTheOthers) {
@@ -112,7 +112,7 @@ TEST_F(MonitorLoopTest, ALateTransformIsToldAndItsTimeCheckedAgain) {
     sendFoot(now);
     step(now);
     if (i > 0) {
-      EXPECT_EQ(last().verdict, Verdicts::CLEAR);
+      EXPECT_EQ(last().verdict, numberOf(Verdict::kClear));
       EXPECT_TRUE(last().cycle.contradicted_since.isZero());
     }
   }
@@ -122,7 +122,7 @@ TEST_F(MonitorLoopTest, ALateTransformIsToldAndItsTimeCheckedAgain) {
   ASSERT_EQ(step(10.6), Step::kCycle);
   EXPECT_EQ(last().cycle.contradicted_since, ros::Time(10.2));
   EXPECT_EQ(last().cycle.late_frames, std::vector<std::string>{"hand"});
-  EXPECT_EQ(last().verdict, Verdicts::CONTACT);
+  EXPECT_EQ(last().verdict, numberOf(Verdict::kContact));
   const PairContact* pair = pairOf(last(), "hand", "plate");
   ASSERT_NE(pair, nullptr);
   EXPECT_NEAR(pair->checked_from.toSec(), 10.2, 1e-6);
@@ -134,7 +134,7 @@ TEST_F(MonitorLoopTest, ALateTransformIsToldAndItsTimeCheckedAgain) {
   sendFoot(10.7);
   ASSERT_EQ(step(10.7), Step::kCycle);
   EXPECT_TRUE(last().cycle.contradicted_since.isZero());
-  EXPECT_EQ(last().verdict, Verdicts::CLEAR);
+  EXPECT_EQ(last().verdict, numberOf(Verdict::kClear));
 }
 
 TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
@@ -144,7 +144,7 @@ TEST_F(MonitorLoopTest, ACycleWithDelayedPairsIsNotClear) {
     if (i < 10 || i >= 20) sendHand(now, 0.0);
     if (step(now) != Step::kCycle) continue;
     const bool is_delayed = i >= 10 && i < 20;
-    EXPECT_EQ(last().verdict, is_delayed ? Verdicts::NOT_CHECKED : Verdicts::CLEAR) << i;
+    EXPECT_EQ(last().verdict, is_delayed ? numberOf(Verdict::kNotChecked) : numberOf(Verdict::kClear)) << i;
     EXPECT_EQ(last().cycle.delayed, is_delayed ? 2u : 0u);
     EXPECT_NEAR(last().cycle.delayed_since.toSec(), is_delayed ? 10.0 + 9 * kPeriod : 0.0, 1e-6);
     EXPECT_EQ(last().reason.find("2 pairs wait for transforms") != std::string::npos, is_delayed) << last().reason;
@@ -163,7 +163,7 @@ TEST_F(MonitorLoopTest, AContactOfALatePairIsFoundWhereNothingNewerComes) {
   ASSERT_EQ(step(10.0 + 10 * kPeriod), Step::kCycle);
   EXPECT_EQ(last().cycle.start, last().header.stamp);
   EXPECT_EQ(last().cycle.complete_until, last().header.stamp);
-  EXPECT_EQ(last().verdict, Verdicts::CONTACT);
+  EXPECT_EQ(last().verdict, numberOf(Verdict::kContact));
   EXPECT_EQ(last().cycle.delayed, 0u);
   EXPECT_NE(pairOf(last(), "hand", "plate"), nullptr);
   ASSERT_EQ(last().contacts.size(), 1u);
@@ -180,11 +180,11 @@ TEST_F(MonitorLoopTest, ALinkAboveTheFixedFrameStopsNothing) {
     }
     return last().verdict;
   };
-  EXPECT_EQ(verdictFrom(10.0), Verdicts::CLEAR);
+  EXPECT_EQ(verdictFrom(10.0), numberOf(Verdict::kClear));
   send(stampedTransform("hand", "world", 10.2, 0.0));
-  EXPECT_EQ(verdictFrom(10.2), Verdicts::CLEAR);
+  EXPECT_EQ(verdictFrom(10.2), numberOf(Verdict::kClear));
   loop_->reset();
-  EXPECT_EQ(verdictFrom(11.0), Verdicts::CLEAR);
+  EXPECT_EQ(verdictFrom(11.0), numberOf(Verdict::kClear));
 }
 
 TEST_F(MonitorLoopTest, AFixedFrameThatMovesWithItsWorldIsWarnedOf) {
@@ -221,7 +221,7 @@ TEST_F(MonitorLoopTest, ALaggingFrameDoesNotLetOthersBeSampledAgain) {
     if (i >= 12) sendHand(now - 12 * kPeriod, 0.0);
     if (step(now) == Step::kCycle && i > 30) most_times = std::max(most_times, loop_->cycle().motion.times.size());
   }
-  EXPECT_EQ(verdicts(Verdicts::CONTACT), 0);
+  EXPECT_EQ(verdicts(numberOf(Verdict::kContact)), 0);
   // One of 13 periods is sampled for the foot and the plate; the foot and the hand need another one, 12 periods
   // earlier.
   EXPECT_LT(most_times, 20u);
@@ -259,8 +259,8 @@ TEST_F(MonitorLoopTest, StampsFarAheadStopNothing) {
     if (i < 10) sendHand(now, 0.0);
     step(now);
   }
-  EXPECT_EQ(verdicts(Verdicts::CLEAR), 9);
-  EXPECT_EQ(verdicts(Verdicts::NOT_CHECKED), 10);
+  EXPECT_EQ(verdicts(numberOf(Verdict::kClear)), 9);
+  EXPECT_EQ(verdicts(numberOf(Verdict::kNotChecked)), 10);
 }
 
 TEST(MonitorLoop, TwoArmsThatMeetBetweenTheirTransformsAreNotClear) {
@@ -303,7 +303,7 @@ TEST_F(MonitorLoopTest, GapsUpToMaxCycleAreCheckedHoweverLongThatIs) {
   ASSERT_FALSE(said_.empty());
   const PairContact* pair = pairOf(said_.front(), "hand", "plate");
   ASSERT_NE(pair, nullptr);
-  EXPECT_EQ(pair->verdict, Verdicts::CONTACT) << pair->reason;
+  EXPECT_EQ(pair->verdict, numberOf(Verdict::kContact)) << pair->reason;
 }
 
 TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
@@ -326,8 +326,8 @@ TEST_F(MonitorLoopTest, PublishersThatDisagreeForEverLetCyclesGoOnAndRecover) {
     sendFoot(now);
     step(now);
   }
-  EXPECT_EQ(last().verdict, Verdicts::CLEAR);
-  EXPECT_LT(verdicts(Verdicts::NOT_CHECKED), 30);
+  EXPECT_EQ(last().verdict, numberOf(Verdict::kClear));
+  EXPECT_LT(verdicts(numberOf(Verdict::kNotChecked)), 30);
 }
 
 }  // namespace sdf_ccd::monitor_loop_test

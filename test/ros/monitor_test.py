@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from monitor_case import (PLATE, RADIUS, SAMPLE_PERIOD, MonitorCase, Recorder, ball_transforms, pair_of, trajectory,
                           transform, wait_for_service)
-from sdf_ccd.msg import DistanceArray, MonitorState, Plan, Verdicts
+from sdf_ccd.msg import DistanceArray, MonitorState, Plan, Verdict
 from sdf_ccd.srv import QueryMotion
 
 
@@ -49,9 +49,9 @@ class MonitorTest(MonitorCase):
         message = self.contacts.find(self.touching)
         self.assertIsNotNone(message, 'no contact')
         self.assertEqual(message.header.frame_id, 'base')
-        self.assertEqual(message.verdict, Verdicts.CONTACT)
+        self.assertEqual(message.verdict, Verdict.CONTACT)
         pair = pair_of(message, 'ball', 'plate')
-        self.assertEqual(pair.verdict, Verdicts.CONTACT)
+        self.assertEqual(pair.verdict, Verdict.CONTACT)
         self.assertFalse(pair.in_contact_at_samples)
         # The ball's front reaches one face of the plate; its back leaves the other.
         length = (after - before).to_sec()
@@ -67,7 +67,7 @@ class MonitorTest(MonitorCase):
         a, b = pair.wrench_on_a.force, pair.wrench_on_b.force
         for axis in 'xyz':
             self.assertAlmostEqual(getattr(a, axis), -getattr(b, axis), delta=1e-6)
-        self.assertIsNotNone(self.states.find(lambda m: m.verdict == Verdicts.CONTACT))
+        self.assertIsNotNone(self.states.find(lambda m: m.verdict == Verdict.CONTACT))
 
     def test_every_cycle_has_a_message_and_presses_back(self):
         for _ in range(10):
@@ -79,7 +79,7 @@ class MonitorTest(MonitorCase):
             self.send(0.0)
         messages = self.contacts.messages
         self.assertGreater(len(messages), 20)
-        self.assertEqual(messages[-1].verdict, Verdicts.CLEAR)
+        self.assertEqual(messages[-1].verdict, Verdict.CLEAR)
         # One contact, with one id from its begin to its end.
         told = [contact for m in messages for contact in m.contacts]
         self.assertEqual(len({contact.id for contact in told}), 1)
@@ -87,7 +87,7 @@ class MonitorTest(MonitorCase):
         self.assertEqual([contact.ends for contact in told], [False] * (len(told) - 1) + [True])
         self.assertFalse(told[-1].is_lost)
         self.assertEqual(told[-1].begin, told[0].begin)
-        self.assertEqual(told[-1].verdict, Verdicts.CONTACT)
+        self.assertEqual(told[-1].verdict, Verdict.CONTACT)
         self.assertEqual(len(messages[-1].contacts), 0)
         # The values for plots.
         self.assertIsNotNone(self.states.find(lambda m: m.max_depth > 0.0 and m.max_force > 0.0 and m.contacts == 1))
@@ -210,13 +210,13 @@ class MonitorTest(MonitorCase):
 
         message = self.contacts.find(late)
         self.assertIsNotNone(message)
-        self.assertEqual(message.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(message.verdict, Verdict.NOT_CHECKED)
         self.assertIsNone(pair_of(message, 'ball', 'plate'))
         self.assertIsNotNone(self.states.find(lambda m: any(body.body == 'other' for body in m.unchecked)))
         self.contacts.clear()
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
 
     def test_time_that_jumps_back_starts_anew(self):
         self.send(0.6)
@@ -235,23 +235,23 @@ class MonitorTest(MonitorCase):
         self.contacts.clear()
         for _ in range(12):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.NOT_CHECKED and m.unchecked))
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.NOT_CHECKED and m.unchecked))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
 
     def test_silence_is_not_checked(self):
         for _ in range(10):
             self.send(0.6)
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.ADD for x in m.markers), 5.0)
-                             or self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR, 5.0))
+                             or self.contacts.find(lambda m: m.verdict == Verdict.CLEAR, 5.0))
         for recorder in (self.contacts, self.markers, self.states):
             recorder.clear()
         state = self.states.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(state)
-        self.assertEqual(state.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(state.verdict, Verdict.NOT_CHECKED)
         self.assertEqual(state.scene_version, 1)
         contacts = self.contacts.find(lambda m: m.reason == 'no new transforms')
         self.assertIsNotNone(contacts)
-        self.assertEqual(contacts.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(contacts.verdict, Verdict.NOT_CHECKED)
         self.assertEqual(len(contacts.pairs), 0)
         self.assertEqual(contacts.cycle.start, contacts.header.stamp)
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
@@ -263,7 +263,7 @@ class MonitorTest(MonitorCase):
         self.assertRegex(answer.message, r'the newest transform of \w+ is [0-9.]+ s old')
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
 
     @staticmethod
     def level_of(diagnostics, task):
@@ -287,7 +287,7 @@ class MonitorTest(MonitorCase):
         self.assertEqual(message.cycle.contradicted_since, last)
         self.assertEqual(list(message.cycle.late_frames), ['ball'])
         pair = pair_of(message, 'ball', 'plate')
-        self.assertEqual(pair.verdict, Verdicts.CONTACT)
+        self.assertEqual(pair.verdict, Verdict.CONTACT)
         self.assertEqual(pair.checked_from, last)
         self.assertIsNotNone(self.states.find(lambda m: m.cycle.contradicted_since == last))
         for _ in range(60):
@@ -328,7 +328,7 @@ class MonitorTest(MonitorCase):
             self.send(0.0)
         self.contacts.clear()
         self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
 
     def test_static_frame_that_had_no_room_is_heard_when_a_body_hangs_on_it(self):
         fixed = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
@@ -358,12 +358,12 @@ class MonitorTest(MonitorCase):
         self.assertIsNotNone(self.markers.find(lambda m: any(x.action == Marker.DELETEALL for x in m.markers)))
         for _ in range(10):
             self.send(0.0)
-        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find(lambda m: m.verdict == Verdict.CLEAR))
 
     def test_bad_parameter_is_named(self):
         state = Recorder('/bad_monitor/state', MonitorState).find(lambda m: 'max_latency' in m.reason)
         self.assertIsNotNone(state)
-        self.assertEqual(state.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(state.verdict, Verdict.NOT_CHECKED)
         self.assertIn('-3.5', state.reason)
         answer = rospy.ServiceProxy('/bad_monitor/query_motion', QueryMotion)(trajectory('slide', [0.0, 1.0]))
         self.assertFalse(answer.success)

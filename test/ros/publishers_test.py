@@ -15,7 +15,7 @@ from std_msgs.msg import Float64
 
 from monitor_case import Recorder, box, pose, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdict
 from sdf_ccd.srv import UpdateScene
 
 TRANSFORM_STORM = sys.argv.pop()
@@ -50,12 +50,12 @@ class PublishersTest(MasterCase):
         os.killpg(process.pid, number)
 
     def expect_clear(self):
-        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR))
+        self.assertIsNotNone(self.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR))
         self.assertIsNotNone(self.scales.find_new(lambda m: m.data > 0.0))
 
     def expect_silence(self):
         self.assertIsNotNone(self.states.find_new(lambda m: m.reason == 'no new transforms', 20 * SILENCE))
-        self.assertEqual(self.states.messages[-1].verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(self.states.messages[-1].verdict, Verdict.NOT_CHECKED)
         self.assertIsNotNone(self.scales.find_new(lambda m: m.data == 0.0))
 
     def test_a_publisher_that_hangs_dies_and_is_replaced(self):

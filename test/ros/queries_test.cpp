@@ -1,4 +1,5 @@
 #include "ros/monitor/queries.h"
+#include "ros/messages/conversions.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 #include "cancel_moments.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::queries_test {
 
@@ -66,7 +66,7 @@ TEST_F(QueriesTest, OnePairTakesNoLongerThanItMay) {
   QueryMotion::Response response;
   const double took = secondsOf([&] { queries_->answer(heavyRequest(), response); });
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(response.verdict, Verdicts::NOT_CHECKED);
+  EXPECT_EQ(response.verdict, numberOf(Verdict::kNotChecked));
   EXPECT_NE(response.message.find("takes more than 0.005 s"), std::string::npos) << response.message;
   EXPECT_GE(took, limits_.seconds);
   EXPECT_LT(took, limits_.seconds + 0.1 * slowness());
@@ -123,13 +123,13 @@ TEST_F(QueriesTest, PairsOfManyMotionsAreListedWithTheirFirstContact) {
   ASSERT_EQ(response.motions.size(), 100U);
   for (std::size_t k = 0; k < 100; k += 2) {
     const CheckedMotion &touching = response.motions[k], &clear = response.motions[k + 1];
-    EXPECT_EQ(touching.verdict, Verdicts::CONTACT);
+    EXPECT_EQ(touching.verdict, numberOf(Verdict::kContact));
     ASSERT_EQ(touching.pairs.size(), 1u);
-    EXPECT_EQ(touching.pairs[0].verdict, Verdicts::CONTACT);
+    EXPECT_EQ(touching.pairs[0].verdict, numberOf(Verdict::kContact));
     EXPECT_EQ(touching.pairs[0].body_a + " " + touching.pairs[0].body_b, "ball wall");
     EXPECT_NEAR(touching.pairs[0].time.toSec(), 0.6, 1e-3) << "its surface, 0.1 m ahead, comes to x = 0.3 m";
     EXPECT_EQ(touching.time, touching.pairs[0].time);
-    EXPECT_EQ(clear.verdict, Verdicts::CLEAR);
+    EXPECT_EQ(clear.verdict, numberOf(Verdict::kClear));
     EXPECT_TRUE(clear.pairs.empty() && clear.body_a.empty());
     EXPECT_EQ(clear.time, ros::Duration(-1.0));
   }
@@ -198,7 +198,7 @@ class MovedBaseTest : public ::testing::Test {
     QueryMotions::Response verdicts;
     queries_->answer(several, verdicts);
     const std::vector<std::string> unchecked = uncheckedOf(request);
-    const bool is_clear = !verdicts.motions.empty() && verdicts.motions[0].verdict == Verdicts::CLEAR;
+    const bool is_clear = !verdicts.motions.empty() && verdicts.motions[0].verdict == numberOf(Verdict::kClear);
     EXPECT_EQ(is_clear, unchecked.empty());
     for (const std::string& pair : unchecked)
       EXPECT_EQ(verdicts.message.find(pair) == std::string::npos, pair.back() == ' ') << verdicts.message;
@@ -214,9 +214,10 @@ class MovedBaseTest : public ::testing::Test {
     for (const PairContact& pair : response.pairs)
       unchecked.push_back(pair.body_a + " - " + pair.body_b + ": " + pair.reason.substr(0, pair.reason.find(':')));
     const auto isContact = [](const std::string& pair) { return pair.back() == ' '; };
-    EXPECT_EQ(response.verdict, unchecked.empty()                                            ? Verdicts::CLEAR
-                                : std::any_of(unchecked.begin(), unchecked.end(), isContact) ? Verdicts::CONTACT
-                                                                                             : Verdicts::NOT_CHECKED);
+    EXPECT_EQ(response.verdict, unchecked.empty() ? numberOf(Verdict::kClear)
+                                : std::any_of(unchecked.begin(), unchecked.end(), isContact)
+                                    ? numberOf(Verdict::kContact)
+                                    : numberOf(Verdict::kNotChecked));
     return unchecked;
   }
 

@@ -9,7 +9,7 @@ from geometry_msgs.msg import Point, Pose
 from std_msgs.msg import Header
 
 from monitor_case import PLATE, RADIUS, MonitorCase, trajectory, wait_for_service
-from sdf_ccd.msg import LinkPoses, RobotMotion, Verdicts
+from sdf_ccd.msg import LinkPoses, RobotMotion, Verdict
 from sdf_ccd.srv import QueryMotionRequest, QueryMotions, QueryMotionsRequest, QueryPoints
 
 
@@ -28,17 +28,17 @@ class QueriesTest(MonitorCase):
         self.send(0.0)
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CLEAR)
+        self.assertEqual(answer.verdict, Verdict.CLEAR)
         answer = self.query_motion(trajectory('slide', [0.0, 1.0, 0.0]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertEqual(len(answer.pairs), 1)
         self.assertEqual(len(answer.pairs[0].intervals), 2)
         self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), PLATE - RADIUS, delta=0.003)
         answer = self.query_motion(trajectory('glide', [0.0, 1.0]))
         self.assertFalse(answer.success)
         self.assertIn('glide', answer.message)
-        self.assertEqual(answer.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(answer.verdict, Verdict.NOT_CHECKED)
 
         request = QueryMotionRequest(links=['ball'])
         for i, x in enumerate((0.0, 1.0)):
@@ -47,7 +47,7 @@ class QueriesTest(MonitorCase):
             request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         request.poses[1].poses[0].orientation.w = 0.0
         answer = self.query_motion(request)
         self.assertFalse(answer.success)
@@ -58,7 +58,7 @@ class QueriesTest(MonitorCase):
             self.send(0.0, PLATE)  # the other ball is in the plate
         answer = self.query_motion(trajectory('slide', [0.0, 0.3]))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
         self.assertEqual(answer.assumed_joints, ['other_slide'])
         self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
@@ -66,7 +66,7 @@ class QueriesTest(MonitorCase):
         request = trajectory('slide', [0.0, 0.3])
         request.other_joints, request.other_positions = ['other_slide'], [0.0]
         answer = self.query_motion(request)
-        self.assertEqual(answer.verdict, Verdicts.CLEAR)
+        self.assertEqual(answer.verdict, Verdict.CLEAR)
         self.assertEqual(answer.assumed_joints, [])
         request = trajectory('slide', [0.0, 2.5])
         answer = self.query_motion(request)
@@ -74,7 +74,7 @@ class QueriesTest(MonitorCase):
         self.assertIn('joint slide: position 2.5 is beyond its limits [-2, 2]', answer.message)
 
     def test_a_joint_beyond_its_limits_is_checked(self):
-        for end, verdict in ((2.9, Verdicts.CLEAR), (2.95, Verdicts.CONTACT)):
+        for end, verdict in ((2.9, Verdict.CLEAR), (2.95, Verdict.CONTACT)):
             request = trajectory('slide', [1.0, end])
             request.allow_beyond_limits = True
             answer = self.query_motion(request)
@@ -88,16 +88,16 @@ class QueriesTest(MonitorCase):
         request = trajectory('slide', [0.3, 0.3])
         for point, velocity in zip(request.joint_trajectory.points, (1.0, -1.0)):
             point.velocities = [velocity]
-        self.assertEqual(self.query_motion(request).verdict, Verdicts.CLEAR)
+        self.assertEqual(self.query_motion(request).verdict, Verdict.CLEAR)
         request.interpolation = QueryMotionRequest.SPLINES  # up to 0.55
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         enter = 0.5 - math.sqrt(0.25 - (PLATE - RADIUS - 0.3))
         self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), enter, delta=0.01)
         request = trajectory('slide', [0.0, 0.3])
         request.other_joints, request.other_positions = ['other_slide'], [0.0]
-        for margin, verdict in ((0.15, Verdicts.CLEAR), (0.2, Verdicts.UNCERTAIN)):
+        for margin, verdict in ((0.15, Verdict.CLEAR), (0.2, Verdict.UNCERTAIN)):
             request.margin = margin
             answer = self.query_motion(request)
             self.assertEqual(answer.verdict, verdict)
@@ -116,7 +116,7 @@ class QueriesTest(MonitorCase):
         request = QueryMotionsRequest(motions=motions, other_joints=['other_slide'], other_positions=[0.0])
         answer = query(request)
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual([motion.verdict for motion in answer.motions], [Verdicts.CLEAR, Verdicts.CONTACT] * 20)
+        self.assertEqual([motion.verdict for motion in answer.motions], [Verdict.CLEAR, Verdict.CONTACT] * 20)
         clear, touching = answer.motions[:2]
         self.assertEqual({touching.body_a, touching.body_b}, {'ball', 'plate'})
         self.assertEqual(clear.body_a, '')
@@ -127,14 +127,14 @@ class QueriesTest(MonitorCase):
         answer = query(request)
         self.assertEqual([len(motion.pairs) for motion in answer.motions], [0, 1] * 20)
         listed = answer.motions[1].pairs[0]
-        self.assertEqual(listed.verdict, Verdicts.CONTACT)
+        self.assertEqual(listed.verdict, Verdict.CONTACT)
         self.assertEqual({listed.body_a, listed.body_b}, {'ball', 'plate'})
         self.assertAlmostEqual(listed.time.to_sec(), PLATE - RADIUS, delta=0.003)
         self.assertEqual(answer.motions[1].time, listed.time)
         request.list_pairs = False
         request.margin = 0.2
         answer = query(request)
-        self.assertEqual(answer.motions[0].verdict, Verdicts.UNCERTAIN)
+        self.assertEqual(answer.motions[0].verdict, Verdict.UNCERTAIN)
         self.assertEqual(answer.margin, 0.2)
         self.assertLess(max(motion.error_bound for motion in answer.motions), 0.01)
         request.motions[3].joint_trajectory.points[1].positions = [5.0]
@@ -157,13 +157,13 @@ class QueriesTest(MonitorCase):
     def test_queries_have_limits_that_they_say(self):
         answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1001))
         self.assertFalse(answer.success)
-        self.assertEqual(answer.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(answer.verdict, Verdict.NOT_CHECKED)
         self.assertIn('2002 waypoints: at most 2000 are allowed', answer.message)
         answer = self.query_motion(trajectory('slide', [0.0, 0.1] * 1000))
         self.assertTrue(answer.success, answer.message)
-        self.assertEqual(answer.verdict, Verdicts.CLEAR)
+        self.assertEqual(answer.verdict, Verdict.CLEAR)
         answer = self.query_motion(trajectory('slide', [0.0, 1.0] * 50))
-        self.assertEqual(answer.verdict, Verdicts.CONTACT)
+        self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertEqual(len(answer.pairs[0].intervals), 99)
         answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0)] * 20001)
         self.assertFalse(answer.success)

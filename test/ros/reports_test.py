@@ -16,7 +16,7 @@ from tf2_msgs.msg import TFMessage
 
 from monitor_case import CUBE, PERIOD, PLATE, RADIUS, MovingBalls, Recorder
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import MonitorState, Verdicts
+from sdf_ccd.msg import MonitorState, Verdict
 
 STIFFNESS = 1e6                   # [N/m^3]
 ARM, DEPTH = 0.4, 0.003           # distance of the hand from the arm's joint, and its depth in a wall [m]
@@ -112,7 +112,7 @@ class ReportsTest(MasterCase):
         self.assertFalse(any(line.startswith('whole:') for line in warnings), warnings)
         # The verdict says so too.
         state = Recorder('/bad/state', MonitorState, PATIENCE)
-        self.assertIsNotNone(state.find(lambda m: m.verdict == Verdicts.NOT_CHECKED))
+        self.assertIsNotNone(state.find(lambda m: m.verdict == Verdict.NOT_CHECKED))
         self.status_of('good', 'bodies', lambda s: s.level == DiagnosticStatus.OK and s.message == 'all bodies can be checked')
 
     def test_parameters_that_nothing_reads_are_named_once_with_what_to_do(self):

@@ -10,7 +10,7 @@ from std_srvs.srv import Empty
 
 from monitor_case import MovingBalls, Recorder, box, pose, wait_for_service
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import MonitorState, SceneChange, Verdicts
+from sdf_ccd.msg import MonitorState, SceneChange, Verdict
 from sdf_ccd.srv import UpdateScene
 
 WALL = [{'name': 'wall', 'type': 'box', 'size': [0.1, 1.0, 1.0], 'xyz': [2.0, 0.0, 0.0]}]
@@ -34,7 +34,7 @@ class RequestsTest(MasterCase):
         cls.states = {name: Recorder('/%s/state' % name, MonitorState, PATIENCE) for name in ('stock', 'strict')}
         cls.update = {name: wait_for_service('/%s/update_scene' % name, UpdateScene) for name in ('stock', 'strict')}
         for states in cls.states.values():
-            assert states.find(lambda m: m.verdict == Verdicts.CLEAR)
+            assert states.find(lambda m: m.verdict == Verdict.CLEAR)
 
     def state(self, name, version, test):
         return self.states[name].find_new(lambda m: m.scene_version >= version and test(m), 10.0)
@@ -101,7 +101,7 @@ class RequestsTest(MasterCase):
                 pass
         self.assertLessEqual(done, 4)
         self.assertGreaterEqual(done, 2)
-        self.assertGreater(len([m for m in heard.messages if m.verdict == Verdicts.CLEAR]), 10)
+        self.assertGreater(len([m for m in heard.messages if m.verdict == Verdict.CLEAR]), 10)
 
     def test_5_limits_change_to_the_safe_side_only(self):
         monitor = dynamic_reconfigure.client.Client('/stock', timeout=20.0)

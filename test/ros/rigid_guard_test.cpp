@@ -4,10 +4,10 @@
 
 #include <set>
 
+#include "ros/messages/conversions.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::rigid_guard_test {
 
@@ -82,8 +82,8 @@ class FixedBaseTest : public ::testing::Test {
     contacts_.clear();
     for (const PairContact& pair : toContactArray(*loop_).pairs) {
       const std::string name = pair.body_a + " - " + pair.body_b;
-      if (pair.verdict == Verdicts::NOT_CHECKED) unchecked.insert(name + ": " + pair.reason);
-      if (pair.verdict == Verdicts::CONTACT) contacts_.insert(name);
+      if (pair.verdict == numberOf(Verdict::kNotChecked)) unchecked.insert(name + ": " + pair.reason);
+      if (pair.verdict == numberOf(Verdict::kContact)) contacts_.insert(name);
     }
     return unchecked;
   }

@@ -8,6 +8,7 @@
 #include "oracle/files.h"
 #include "oracle/scene_case.h"
 #include "ros/described_world.h"
+#include "ros/messages/conversions.h"
 #include "ros/messages/message_pool.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/cycle_snapshot.h"
@@ -16,7 +17,6 @@
 #include "ros/monitor/proximity_measure.h"
 #include "ros/monitor/torque_output.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::tf_allocation_test {
 
@@ -178,7 +178,7 @@ class Gripper {
     safety.finding = CycleFinding::kContact;
     safety.health = Health::kOk;
     health_.recordCycle(*loop_, *state, safety, now);
-    contacts_ += contacts->verdict == Verdicts::CONTACT && !contacts->pairs.empty();
+    contacts_ += contacts->verdict == numberOf(Verdict::kContact) && !contacts->pairs.empty();
     measured_torques_ += std::abs(torques->effort.at(0)) > 1e-3;
   }
 
@@ -209,26 +209,26 @@ long steadyAllocations(Robot& robot) {
 TEST(TfAllocation, NoneFromTransformsToTheMessageWhileAllIsClear) {
   Arm arm(1.0);
   EXPECT_EQ(steadyAllocations(arm), 0);
-  EXPECT_GT(arm.cycles(Verdicts::CLEAR), 1400);
+  EXPECT_GT(arm.cycles(numberOf(Verdict::kClear)), 1400);
 }
 
 TEST(TfAllocation, NoneFromTransformsToTheMessageOfContactsLikeTheLast) {
   Arm arm(0.015);
   EXPECT_EQ(steadyAllocations(arm), 0);
-  EXPECT_GT(arm.cycles(Verdicts::CONTACT), 1400);
+  EXPECT_GT(arm.cycles(numberOf(Verdict::kContact)), 1400);
 }
 
 TEST(TfAllocation, NoneWhileANearPairLimitsTheVelocityScale) {
   Arm arm(0.3);
   EXPECT_EQ(steadyAllocations(arm), 0);
-  EXPECT_GT(arm.cycles(Verdicts::CLEAR), 1400);
+  EXPECT_GT(arm.cycles(numberOf(Verdict::kClear)), 1400);
   EXPECT_GT(arm.limited(), 1400);
 }
 
 TEST(TfAllocation, NoneWhileABodyIsNotChecked) {
   Arm arm(1.0, {true, 1});
   EXPECT_EQ(steadyAllocations(arm), 0);
-  EXPECT_GT(arm.cycles(Verdicts::NOT_CHECKED), 1400);
+  EXPECT_GT(arm.cycles(numberOf(Verdict::kNotChecked)), 1400);
   EXPECT_GT(arm.limited(), 1400);
   EXPECT_GT(arm.warned(), 1400);
 }
@@ -236,7 +236,7 @@ TEST(TfAllocation, NoneWhileABodyIsNotChecked) {
 TEST(TfAllocation, NoneWhilePairsWaitForAFrameThatIsSlow) {
   Arm arm(1.0, {false, 3});
   EXPECT_EQ(steadyAllocations(arm), 0);
-  EXPECT_GT(arm.cycles(Verdicts::NOT_CHECKED), 700);
+  EXPECT_GT(arm.cycles(numberOf(Verdict::kNotChecked)), 700);
   EXPECT_GT(arm.warned(), 700);
 }
 

@@ -11,10 +11,10 @@
 
 #include "oracle/scene_case.h"
 #include "ros/described_world.h"
+#include "ros/messages/conversions.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/tf_messages.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd::tf_disturbed_test {
 
@@ -281,7 +281,7 @@ class Episode {
                         cycle.origin + ros::Duration(cycle.motion.times[result.span.last])});
     }
     contradictions_ += !said_.back().cycle.contradicted_since.isZero();
-    contact_messages_ += said_.back().verdict == Verdicts::CONTACT;
+    contact_messages_ += said_.back().verdict == numberOf(Verdict::kContact);
   }
 
   static ros::Time stampOf(double time) { return ros::Time(100.0 + time); }
@@ -327,7 +327,7 @@ class Episode {
     for (const ContactArray& said : said_) {
       const CycleStatus& cycle = said.cycle;
       if (!cycle.contradicted_since.isZero() && cycle.contradicted_since <= time) is_clear = false;
-      is_clear |= said.verdict == Verdicts::CLEAR && cycle.start <= time && time <= cycle.complete_until;
+      is_clear |= said.verdict == numberOf(Verdict::kClear) && cycle.start <= time && time <= cycle.complete_until;
     }
     return is_clear;
   }

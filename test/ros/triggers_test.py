@@ -12,7 +12,7 @@ from tf2_msgs.msg import TFMessage
 
 from monitor_case import Recorder, transform
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, Verdicts
+from sdf_ccd.msg import ContactArray, Verdict
 
 PERIOD, EVERY = 0.02, 3    # of the ball's transforms [s]; every third is followed by another frame and joint states
 SECONDS = 3.0
@@ -40,7 +40,7 @@ class TriggersTest(MasterCase):
         cls.sender = threading.Thread(target=cls.send)
         cls.sender.start()
         for name in TRIGGERS:
-            assert cls.contacts[name].find(lambda m: m.verdict == Verdicts.CLEAR), name
+            assert cls.contacts[name].find(lambda m: m.verdict == Verdict.CLEAR), name
 
     @classmethod
     def tearDownClass(cls):

@@ -7,7 +7,7 @@ import rospy
 
 from monitor_case import MovingBalls, Recorder
 from own_master import PATIENCE, MasterCase, sliders
-from sdf_ccd.msg import ContactArray, Verdicts
+from sdf_ccd.msg import ContactArray, Verdict
 from voxel_maps import Octomap, message, touches_map, voxels_near
 
 NEAR = 0.3  # octomap/unknown_distance [m]
@@ -59,7 +59,7 @@ class UnknownSpaceTest(MasterCase):
         there, touched = rospy.Time.now(), []
         for kind in KINDS:
             found = self.contacts[kind].find_new(
-                lambda m: m.cycle.start > there and (touches_map(m) or m.verdict == Verdicts.CLEAR))
+                lambda m: m.cycle.start > there and (touches_map(m) or m.verdict == Verdict.CLEAR))
             self.assertIsNotNone(found, (x, kind))
             if touches_map(found):
                 touched.append(kind)

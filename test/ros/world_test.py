@@ -14,7 +14,7 @@ from shape_msgs.msg import Mesh, MeshTriangle, SolidPrimitive
 from std_msgs.msg import Header
 
 from monitor_case import CUBE, MovingBalls, Recorder, box, pose, touches, wait_for_service
-from sdf_ccd.msg import ContactArray, LeftOutPair, MonitorState, Plan, SceneChange, Verdicts
+from sdf_ccd.msg import ContactArray, LeftOutPair, MonitorState, Plan, SceneChange, Verdict
 from sdf_ccd.srv import GetPlan, QueryPoints, UpdateScene
 
 
@@ -28,7 +28,7 @@ class WorldTest(unittest.TestCase):
         cls.update = wait_for_service('/collision_monitor/update_scene', UpdateScene)
         cls.points = wait_for_service('/collision_monitor/query_points', QueryPoints)
         cls.get_plan = wait_for_service('/collision_monitor/get_plan', GetPlan)
-        assert cls.contacts.find_new(lambda m: m.verdict == Verdicts.CLEAR, 60.0), 'no complete cycle'
+        assert cls.contacts.find_new(lambda m: m.verdict == Verdict.CLEAR, 60.0), 'no complete cycle'
 
     def change(self, *changes, **more):
         answer = self.update(changes=list(changes), **more)
@@ -44,7 +44,7 @@ class WorldTest(unittest.TestCase):
         return self.contacts.find_new(lambda m: m.scene_version == version and touches(m, a, b))
 
     def clear(self, version):
-        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdicts.CLEAR)
+        return self.contacts.find_new(lambda m: m.scene_version == version and m.verdict == Verdict.CLEAR)
 
     def test_an_object_comes_moves_and_goes(self):
         before = self.change().scene_version
@@ -66,7 +66,7 @@ class WorldTest(unittest.TestCase):
         found = self.states.find_new(lambda m: m.scene_version == lost.scene_version and any(
             'nowhere' in body.reason for body in m.unchecked))
         self.assertIsNotNone(found)
-        self.assertEqual(found.verdict, Verdicts.NOT_CHECKED)
+        self.assertEqual(found.verdict, Verdict.NOT_CHECKED)
 
     def test_a_grasped_object_is_checked_against_the_world(self):
         self.change(box('part', pose(0.06, 0.0, 0.0)), box('shelf', pose(1.0, 0.0), (0.2, 1.0, 1.0)))

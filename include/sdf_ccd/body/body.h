@@ -37,8 +37,8 @@ struct BodyHalfSpace {
 
 /// A body that is ready to be checked.
 struct Body : BodyPlace {
-  std::string warning;            ///< about the inside of its meshes (see warningOf()); empty if there is none
-  std::vector<BodyPart> parts;    ///< empty if no pair needs its field
+  std::string warning;          ///< about the inside of its meshes (see warningOf()); empty if there is none
+  std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   /// Points of the surface, frame B, and their tree; none if no pair needs them, or deep inside a sibling part.
   ///@{
   std::shared_ptr<const PointShell> shell = std::make_shared<const PointShell>();
@@ -73,8 +73,8 @@ struct BodyReport {
   std::size_t shell_bytes = 0;  ///< with the triangles that decide verdicts
   double gap = 0.0;             ///< between its shell's points, for a pair of equal shells [m]
   std::size_t pairs = 0;
-  ErrorBound bound;   ///< of verdicts, largest over its pairs; chord: as the options allow
-  std::string solid;  ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
+  ErrorSources bound;  ///< of verdicts, largest over its pairs; chord: as the options allow
+  std::string solid;   ///< parts of its meshes that were left out as inside their solids; empty if none, or cached
   std::vector<std::string> files;    ///< names in the cache of its fields and shells, except those of a body before it
   bool is_cache_incomplete = false;  ///< a field or shell was made for the cache but is not in it; a warning says why
   std::vector<std::string> warnings;

@@ -66,10 +66,10 @@ struct ContactPoint {
   double exit = 0.0;   ///< [s] from t₀
   double time = 0.0;   ///< when it is deepest [s] from t₀
   double depth = 0.0;  ///< [m]
-  /// Of the depth [m], from the field at this point: mostly less than ErrorBound::field. Beyond the band the point may
-  /// get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and they
-  /// are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the body
-  /// may be deeper by up to this, but is never less deep by more than the field's error.
+  /// Of the depth [m], from the field at this point: mostly less than ErrorSources::field. Beyond the band the point
+  /// may get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and
+  /// they are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the
+  /// body may be deeper by up to this, but is never less deep by more than the field's error.
   double depth_error = 0.0;
   Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
   Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
@@ -90,10 +90,10 @@ struct PairResult {
   /// force, the only interval is the whole span, during which it touches at `deepest` at least; its depth is up to
   /// deepest.depth + depth_error, the greatest that the bodies allow; there are no points, and wrenches are NaN.
   bool incomplete = false;
-  ErrorBound error;          ///< of the verdict
-  ErrorBound contact_error;  ///< of intervals and depths, which come from fields and shells; zero if there are none
-  double clearance = 0.0;    ///< lower bound of the distance at the span's end, the motion's error taken off [m];
-                             ///< negative if not known. See CycleRequest::skipped_pairs
+  ErrorSources error;          ///< of the verdict
+  ErrorSources contact_error;  ///< of intervals and depths, which come from fields and shells; zero if there are none
+  double clearance = 0.0;      ///< lower bound of the distance at the span's end, the motion's error taken off [m];
+                               ///< negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
   /// Valid if intervals is not empty; beyond the band, its error holds for all points. If refined, no point of either
   /// surface gets deeper than this depth by more than depth_error within the span.
@@ -118,7 +118,7 @@ struct CycleResult {
   Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
                                            ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
   double error_bound = 0.0;                ///< largest of the pairs checked [m]
-  ErrorBound error;                        ///< of that pair, by source
+  ErrorSources error;                      ///< of that pair, by source
   double contact_error = 0.0;              ///< largest PairResult::contact_error of all pairs [m]
   int checked = 0;
   int skipped = 0;

@@ -72,8 +72,8 @@ struct Scene {
   std::vector<BodyReport> reports;
   std::vector<std::string> warnings;       ///< about its pairs, and those that several bodies share
   std::vector<std::string> overlap_notes;  ///< about pairs of links that overlap at rest
-  ErrorBound bound;                        ///< of verdicts, largest over all pairs; chord: as the options allow
-  ErrorBound contact_bound;  ///< the same for times and depths of contacts, which come from fields and shells
+  ErrorSources bound;                      ///< of verdicts, largest over all pairs; chord: as the options allow
+  ErrorSources contact_bound;  ///< the same for times and depths of contacts, which come from fields and shells
   double motion_margin = 0.0, motion_error = 0.0;  ///< as in BodyOptions [m]
   std::optional<double> max_error;                 ///< as requested [m]
   double build_seconds = 0.0;

@@ -60,7 +60,7 @@ struct MotionSampling {
 /// How closely chords follow the arcs of points that rotate.
 struct ChordOptions {
   double tolerance = 1e-4;  ///< chord error aimed at [m]
-  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ErrorBound::chord
+  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ErrorSources::chord
 };
 
 }  // namespace sdf_ccd

@@ -52,12 +52,12 @@ class WorstVerdict {
 const char* toString(Verdict verdict);
 
 /// Bounds of a verdict's errors, by source [m].
-struct ErrorBound {
+struct ErrorSources {
   double field = 0.0;  ///< sampling, interpolation, rounding of the field
   double chord = 0.0;  ///< arcs taken as chords, errors of poses, rounding of shell points
   double root = 0.0;   ///< tolerance of contact times, as a length
   double gap = 0.0;    ///< where surfaces touch: to the nearest shell point, or to the triangles that stand for a
-                     ///< surface; where triangles leave a pair UNCERTAIN, plus the distance that they can resolve
+                       ///< surface; where triangles leave a pair UNCERTAIN, plus the distance that they can resolve
 
   /// For "no contact": the surface between the points counts, too.
   double total() const { return field + chord + root + gap; }

@@ -66,7 +66,7 @@ std::string leftOutLines(const Scene& scene) {
   return text;
 }
 
-std::string sources(const ErrorBound& bound) {
+std::string sources(const ErrorSources& bound) {
   return " (field " + fixedText(1e3 * bound.field, 2) + ", gap between points " + fixedText(1e3 * bound.gap, 2) +
          ", motion " + fixedText(1e3 * bound.chord, 2) + ")";
 }
@@ -74,7 +74,7 @@ std::string sources(const ErrorBound& bound) {
 /// "error bound of verdicts: 0.04 mm, within the max_error of 0.10 (field 0.00, gap between points 0.00, motion
 /// 0.04)", and that of contacts.
 std::string boundLines(const Scene& scene) {
-  const ErrorBound& bound = scene.bound;
+  const ErrorSources& bound = scene.bound;
   if (scene.contact_bound.total() == 0.0) return "";
   std::string text = "error bound of verdicts: " + fixedText(1e3 * bound.total(), 2) + " mm";
   if (scene.max_error) {

@@ -9,7 +9,7 @@
 namespace sdf_ccd {
 namespace {
 
-bool isLarger(const ErrorBound& a, const ErrorBound& b) {
+bool isLarger(const ErrorSources& a, const ErrorSources& b) {
   return a.total() > b.total();
 }
 
@@ -44,11 +44,11 @@ void setTotals(Scene& scene) {
     ++scene.reports[pair.body_a].pairs;
     ++scene.reports[pair.body_b].pairs;
     if (!haveSurfaces(scene, pair)) continue;  // one of the bodies was not built
-    ErrorBound of_contacts = contactBound(scene, pair);
+    ErrorSources of_contacts = contactBound(scene, pair);
     of_contacts.chord = scene.motion_margin;
-    const ErrorBound bound{0.0, scene.motion_error, 0.0, deviationOf(scene, pair)};
+    const ErrorSources bound{0.0, scene.motion_error, 0.0, deviationOf(scene, pair)};
     if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
-    for (ErrorBound* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
+    for (ErrorSources* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
       if (isLarger(bound, *largest)) *largest = bound;
   }
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "ros/messages/conversions.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd {
 namespace {
@@ -17,7 +16,7 @@ geometry_msgs::Vector3 opposite(geometry_msgs::Vector3 vector) {
 
 gazebo_msgs::ContactState toContactState(const PairContact& pair) {
   gazebo_msgs::ContactState state;
-  state.info = pair.verdict == Verdicts::CONTACT ? "CONTACT" : "UNCERTAIN";
+  state.info = pair.verdict == numberOf(Verdict::kContact) ? "CONTACT" : "UNCERTAIN";
   state.collision1_name = pair.body_a;
   state.collision2_name = pair.body_b;
   state.total_wrench = pair.wrench_on_a;
@@ -37,8 +36,8 @@ gazebo_msgs::ContactsState toContactStates(const ContactArray& contacts) {
   gazebo_msgs::ContactsState message;
   message.header = contacts.header;
   for (const PairContact& pair : contacts.pairs) {
-    const bool is_found = pair.verdict == Verdicts::UNCERTAIN && !pair.intervals.empty();
-    if (pair.verdict == Verdicts::CONTACT || is_found) message.states.push_back(toContactState(pair));
+    const bool is_found = pair.verdict == numberOf(Verdict::kUncertain) && !pair.intervals.empty();
+    if (pair.verdict == numberOf(Verdict::kContact) || is_found) message.states.push_back(toContactState(pair));
   }
   return message;
 }

@@ -8,15 +8,9 @@
 #include "common/refuse.h"
 #include "monitor/pair_result.h"
 #include "motion/valid_pose.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd {
 namespace {
-
-static_assert(static_cast<int>(Verdict::kClear) == Verdicts::CLEAR, "as in the messages");
-static_assert(static_cast<int>(Verdict::kContact) == Verdicts::CONTACT, "as in the messages");
-static_assert(static_cast<int>(Verdict::kUncertain) == Verdicts::UNCERTAIN, "as in the messages");
-static_assert(static_cast<int>(Verdict::kNotChecked) == Verdicts::NOT_CHECKED, "as in the messages");
 
 ros::Time toTime(std::chrono::nanoseconds since_epoch) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(since_epoch.count()));
@@ -116,8 +110,8 @@ geometry_msgs::Wrench toWrench(const Wrench& wrench) {
   return message;
 }
 
-ErrorBounds toErrorBounds(const ErrorBound& error) {
-  ErrorBounds message;
+ErrorBound toErrorBound(const ErrorSources& error) {
+  ErrorBound message;
   message.total = error.total();
   message.chord = error.chord;
   message.gap = error.gap;
@@ -160,7 +154,7 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
   message.wrench_on_b = toWrench(pair.on_b_W);
   message.origin_a = toPoint(cycle.motion.pose(pair.body_a, pair.span.last).translation());
   message.origin_b = toPoint(cycle.motion.pose(pair.body_b, pair.span.last).translation());
-  message.error_bound = toErrorBounds(pair.error);
+  message.error_bound = toErrorBound(pair.error);
   message.contact_error_bound = pair.contact_error.total();
 }
 

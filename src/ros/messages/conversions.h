@@ -13,7 +13,7 @@
 
 #include "monitor/contact_tracker.h"
 #include "sdf_ccd/Contact.h"
-#include "sdf_ccd/ErrorBounds.h"
+#include "sdf_ccd/ErrorBound.h"
 #include "sdf_ccd/PairContact.h"
 #include "sdf_ccd/monitor/monitor.h"
 
@@ -49,7 +49,12 @@ struct CycleContext {
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
 /// The bound of a verdict, which has no other sources: surfaces decide.
-ErrorBounds toErrorBounds(const ErrorBound& error);
+/// The number of a verdict in messages; see Verdict.msg.
+constexpr std::uint8_t numberOf(Verdict verdict) {
+  return static_cast<std::uint8_t>(verdict);
+}
+
+ErrorBound toErrorBound(const ErrorSources& error);
 
 /// Sets all fields of the message, whose memory is reused; so do all functions named set….
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message);

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "monitor/pair_result.h"
+#include "ros/messages/conversions.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/seconds_between.h"
-#include "sdf_ccd/Verdicts.h"
 
 namespace sdf_ccd {
 namespace {
@@ -17,7 +17,7 @@ void setStatus(const TrackedCycle& cycle, const CycleResult& result, CycleStatus
   message.start = cycle.start;
   message.complete_until = cycle.complete_until;
   message.run_time = result.run_time;
-  message.error_bound = toErrorBounds(result.error);
+  message.error_bound = toErrorBound(result.error);
   message.checked = result.checked;
   message.skipped = result.skipped;
   message.not_checked = result.not_checked;
@@ -154,7 +154,7 @@ ContactArray toUncheckedContacts(const MonitorLoop& loop, const std::string& rea
   message.scene_version = loop.world()->version();
   message.header.stamp = message.cycle.start = loop.cycle().end;
   message.cycle.complete_until = loop.cycle().complete_until;
-  message.verdict = Verdicts::NOT_CHECKED;
+  message.verdict = numberOf(Verdict::kNotChecked);
   message.reason = reason;
   setContacts(loop, message.contacts);
   return message;
@@ -176,7 +176,7 @@ MonitorState toUncheckedState(std::uint64_t scene_version, const std::string& fi
   message.scene_version = scene_version;
   message.header.stamp = now;
   message.header.frame_id = fixed_frame;
-  message.verdict = Verdicts::NOT_CHECKED;
+  message.verdict = numberOf(Verdict::kNotChecked);
   message.reason = reason;
   message.proximity = MonitorState::STOP;  // also before it is known whether there are thresholds
   return message;

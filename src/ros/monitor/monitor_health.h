@@ -23,7 +23,7 @@ struct MonitorHealth {
   double latency = 0.0;                          ///< of the last cycle [s]
   double age = 0.0;                              ///< time since all pairs were last known [s]
   double run_time = 0.0;                         ///< of the last check [s]
-  ErrorBound error;                              ///< of the pair of the last cycle that has the largest
+  ErrorSources error;                            ///< of the pair of the last cycle that has the largest
   double contact_error = 0.0;                    ///< CycleResult::contact_error of the last cycle [m]
   double max_error = 0.0;                        ///< requested [m]; 0: none
   std::uint64_t world_version = 0;

@@ -303,7 +303,7 @@ bool Queries::checkOnce(const QueryMotion::Request& request, QueryMotion::Respon
     response.assumed_positions.push_back(joint.position);
   }
   response.verdict = static_cast<std::uint8_t>(result.verdict);
-  response.error_bound = toErrorBounds(result.error);
+  response.error_bound = toErrorBound(result.error);
   response.margin = request.margin;
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};
   setPairContacts(

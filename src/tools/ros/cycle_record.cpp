@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
-#include "sdf_ccd/Verdicts.h"
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd::tools {
 
 CycleRecord toRecord(const ContactArray& message) {
   const CycleStatus& cycle = message.cycle;
-  if (message.verdict > Verdicts::CONTACT || !std::isfinite(cycle.error_bound.total) ||
+  if (message.verdict > numberOf(Verdict::kContact) || !std::isfinite(cycle.error_bound.total) ||
       !std::isfinite(cycle.run_time)) {
     throw std::runtime_error(fmt::format("a message about contacts is damaged: verdict {}, error bound {}, run time {}",
                                          message.verdict, cycle.error_bound.total, cycle.run_time));
@@ -30,8 +30,8 @@ CycleRecord toRecord(const ContactArray& message) {
   record.not_checked = cycle.not_checked;
   record.delayed = cycle.delayed;
   for (const PairContact& pair : message.pairs) {
-    record.in_contact += pair.verdict == Verdicts::CONTACT;
-    record.uncertain += pair.verdict == Verdicts::UNCERTAIN;
+    record.in_contact += pair.verdict == numberOf(Verdict::kContact);
+    record.uncertain += pair.verdict == numberOf(Verdict::kUncertain);
     if (pair.intervals.empty() || pair.depth <= record.depth) continue;
     record.depth = pair.depth;
     record.body_a = pair.body_a;

@@ -9,7 +9,7 @@
 #include "common/number_text.h"
 #include "model/name_pair.h"
 #include "precision/error_summary.h"
-#include "sdf_ccd/Verdicts.h"
+#include "ros/messages/conversions.h"
 
 namespace sdf_ccd::tools {
 namespace {
@@ -52,9 +52,9 @@ void CycleStatistics::add(const ContactArray& message, const CycleRecord& record
   contacts_.add(message);
   for (const PairContact& pair : message.pairs) {
     Count& count = pairs_[pairName(pair.body_a, pair.body_b)];
-    count.in_contact += pair.verdict == Verdicts::CONTACT;
-    count.uncertain += pair.verdict == Verdicts::UNCERTAIN;
-    if (pair.verdict == Verdicts::NOT_CHECKED) count.addUnchecked(pair.reason, {pair.body_a, pair.body_b});
+    count.in_contact += pair.verdict == numberOf(Verdict::kContact);
+    count.uncertain += pair.verdict == numberOf(Verdict::kUncertain);
+    if (pair.verdict == numberOf(Verdict::kNotChecked)) count.addUnchecked(pair.reason, {pair.body_a, pair.body_b});
   }
   for (const UncheckedBody& body : message.unchecked) bodies_[body.body].addUnchecked(body.reason, {body.body});
 }
@@ -158,7 +158,7 @@ std::string CycleStatistics::jumpLines(const ros::Time& begin) const {
 std::string CycleStatistics::contactLines(const ros::Time& begin) const {
   std::vector<std::string> items;
   for (const Contact& contact : contacts_.contacts()) {
-    if (contact.verdict != Verdicts::CONTACT) continue;
+    if (contact.verdict != numberOf(Verdict::kContact)) continue;
     // Of a contact without shell points no depth is known.
     const bool is_felt = contact.deepest.depth > 0.0 || contact.contact_error_bound == 0.0;
     const double depth = is_felt ? contact.deepest.depth : contact.deepest.depth_error;
