@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "build_systems.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "peak_memory.h"
 #include "precision/error_summary.h"
 #include "precision/random_inputs.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "results.h"
 #include "sdf_ccd/dynamics/rigid_world.h"
 #include "sdf_ccd/dynamics/simulation.h"

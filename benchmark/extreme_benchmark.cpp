@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "common/number_text.h"
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "results.h"
 #include "sdf_ccd/dynamics/simulation.h"

@@ -5,12 +5,12 @@
 #include <stdexcept>
 
 #include "embree_scene.h"
-#include "geometry/closed_solid.h"
 #include "results.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
 #include "segment_cases.h"
+#include "solid/closed_solid.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "model/error_budget.h"
 #include "robot/joint_kind.h"
+#include "scene/error_budget.h"
 #include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::benchmark {

@@ -8,12 +8,12 @@
 #include <tuple>
 
 #include "common/seconds_since.h"
-#include "model/error_budget.h"
 #include "monitor/robot_motion.h"
 #include "oracle/random.h"
 #include "precision/error_summary.h"
 #include "results.h"
 #include "robot_case.h"
+#include "scene/error_budget.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/describe_robot.h"
 #include "study.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/random.h"
 #include "sdf_ccd/query/segment_query.h"
 

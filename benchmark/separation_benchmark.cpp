@@ -12,9 +12,9 @@
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "query/surfaces/separation.h"
-#include "query/surfaces/triangle_pairs_scalar.h"
 #include "study.h"
+#include "surface/separation.h"
+#include "surface/triangle_pairs_scalar.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

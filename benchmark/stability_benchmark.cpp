@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/number_text.h"
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "oracle/persistent_contact.h"
 #include "results.h"

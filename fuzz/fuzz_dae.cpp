@@ -1,6 +1,6 @@
 // Fuzzes what is ours of reading a COLLADA file: assimp is only run in its sandbox.
 #include "fuzz_input.h"
-#include "reader/collada_check.h"
+#include "mesh/reader/collada_check.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

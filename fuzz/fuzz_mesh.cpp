@@ -1,6 +1,6 @@
 // Fuzzes a mesh file of the format that the target is built for.
 #include "fuzz_input.h"
-#include "reader/parse_mesh.h"
+#include "mesh/reader/parse_mesh.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

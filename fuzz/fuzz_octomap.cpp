@@ -1,6 +1,6 @@
 // Fuzzes an OctoMap file, with a memory limit that keeps runs short.
 #include "fuzz_input.h"
-#include "reader/parse_octomap.h"
+#include "mesh/reader/parse_octomap.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

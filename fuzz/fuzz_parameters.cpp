@@ -1,7 +1,7 @@
 // Fuzzes the monitor's parameters, as check-bag reads them from a YAML file.
+#include "common/settings/yaml_settings.h"
 #include "fuzz_input.h"
 #include "ros/parameters/parameters.h"
-#include "settings/yaml_settings.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

@@ -10,7 +10,7 @@
 #include <sstream>
 #endif
 
-#include "import/read_answer.h"
+#include "mesh/import/read_answer.h"
 #include "oracle/file_versions.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/open_shapes.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/files/checked_file.h"
 #include "fuzz_input.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd::fuzz {
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "body/build_body.h"
+#include "scene/build_body.h"
 #include "sdf_ccd/dynamics/rigid_world.h"
 
 namespace sdf_ccd {

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "geometry/generated_mesh.h"
+#include "dynamics/scene_settings.h"
+#include "mesh/generated_mesh.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
-#include "settings/scene_settings.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "common/settings/settings_reader.h"
 #include "sdf_ccd/dynamics/rigid_world.h"
-#include "settings/settings_reader.h"
 
 namespace sdf_ccd {
 

@@ -5,11 +5,11 @@
 #include <random>
 #include <set>
 
+#include "common/files/regular_file.h"
+#include "common/settings/yaml_settings.h"
 #include "common/text_limits.h"
+#include "dynamics/scene_settings.h"
 #include "scene_shape.h"
-#include "settings/scene_settings.h"
-#include "settings/yaml_settings.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {

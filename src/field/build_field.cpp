@@ -5,7 +5,7 @@
 #include "field/adaptive/build_adaptive.h"
 #include "field/opening_caps.h"
 #include "field/uniform/build_uniform.h"
-#include "geometry/closed_solid.h"
+#include "solid/closed_solid.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "common/files/checked_file.h"
 #include "field/opening_caps.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "field/lattice_grid.h"
-#include "geometry/voxel_solid.h"
+#include "mesh/voxel_solid.h"
 
 namespace sdf_ccd {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/files/content_hash.h"
 #include "field/opening_caps.h"
 #include "field/source_field.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "storage/content_hash.h"
 
 namespace sdf_ccd {
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "geometry/closed_solid.h"
+#include "common/files/file_cache.h"
 #include "sdf_ccd/field/build_field.h"
-#include "storage/file_cache.h"
+#include "solid/closed_solid.h"
 
 namespace sdf_ccd {
 

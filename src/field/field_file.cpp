@@ -3,12 +3,12 @@
 #include <stdexcept>
 
 #include "caps_file.h"
+#include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_file.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/lost_surface.h"
 #include "field/uniform/sparse_grid.h"
 #include "grid_record.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 namespace {

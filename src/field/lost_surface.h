@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/files/checked_file.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {

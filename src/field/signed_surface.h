@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "geometry/solid_boundary.h"
+#include "solid/solid_boundary.h"
 
 namespace sdf_ccd {
 

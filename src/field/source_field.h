@@ -1,7 +1,7 @@
 #pragma once
 
-#include "geometry/closed_solid.h"
 #include "sdf_ccd/field/build_field.h"
+#include "solid/closed_solid.h"
 
 namespace sdf_ccd {
 

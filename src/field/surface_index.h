@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/trees/triangle_lanes.h"
-#include "geometry/triangle.h"
+#include "mesh/triangle.h"
+#include "mesh/triangle_lanes.h"
 #include "signed_surface.h"
 
 namespace sdf_ccd {

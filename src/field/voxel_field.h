@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "geometry/voxel_solid.h"
+#include "mesh/voxel_solid.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/triangle_mesh.h"

@@ -4,13 +4,13 @@
 #include <set>
 #include <stdexcept>
 
-#include "body/build_body.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
-#include "model/name_pair.h"
-#include "monitor/plan/scene_totals.h"
-#include "monitor/plan/surface_needs.h"
 #include "resting_answers.h"
+#include "scene/build_body.h"
+#include "scene/name_pair.h"
+#include "scene/plan/scene_totals.h"
+#include "scene/plan/surface_needs.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "untestable_pairs.h"
@@ -71,6 +71,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   const auto start = Clock::now();
   if (options.max_error) requireSmallerThanBodies(description, *options.max_error);
   Scene scene = plannedScene(description, plan, options);
+  scene.resting = std::make_shared<RestingAnswers>();
   MeshPool pool(options);
   const std::size_t count = description.bodies.size();
   std::vector<Body> bodies;

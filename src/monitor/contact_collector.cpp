@@ -4,9 +4,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "body/union_depth.h"
 #include "field/opening_caps.h"
 #include "motion/time_at.h"
+#include "scene/union_depth.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "body/union_depth.h"
 #include "motion/time_at.h"
-#include "pair_bound.h"
 #include "pair_result.h"
+#include "scene/pair_bound.h"
+#include "scene/union_depth.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "query/surfaces/deepest_point.h"
+#include "surface/deepest_point.h"
 #include "surface_pair.h"
 
 namespace sdf_ccd {

@@ -7,10 +7,10 @@
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/seconds_since.h"
-#include "model/error_budget.h"
 #include "monitor_impl.h"
 #include "pair_result.h"
 #include "pair_times.h"
+#include "scene/error_budget.h"
 #include "sdf_ccd/common/cancel.h"
 #include "summarise.h"
 

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "body/mesh_distance.h"
-#include "body/union_depth.h"
 #include "common/infinity.h"
+#include "scene/mesh_distance.h"
+#include "scene/union_depth.h"
 
 namespace sdf_ccd {
 namespace {

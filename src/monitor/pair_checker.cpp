@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "common/infinity.h"
-#include "pair_bound.h"
 #include "pair_result.h"
 #include "pose_rounding.h"
+#include "scene/pair_bound.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

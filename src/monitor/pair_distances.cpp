@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "body/body_triangles.h"
 #include "monitor/contact_tracker.h"
-#include "monitor/pair_bound.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
-#include "query/surfaces/moving_boxes.h"
-#include "query/surfaces/plane_separation.h"
-#include "query/surfaces/surface_distance.h"
+#include "scene/body_triangles.h"
+#include "scene/pair_bound.h"
+#include "surface/moving_boxes.h"
+#include "surface/plane_separation.h"
+#include "surface/surface_distance.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "query/surfaces/separation.h"
-#include "query/surfaces/surface_distance.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "surface/separation.h"
+#include "surface/surface_distance.h"
 
 namespace sdf_ccd {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "pair_bound.h"
 #include "pair_checker.h"
 #include "pair_result.h"
 #include "pose_rounding.h"
+#include "scene/pair_bound.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/name_pair.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "body/body_shell.h"
-#include "body/body_surface.h"
-#include "body/body_triangles.h"
-#include "body/build_body.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
+#include "scene/body_shell.h"
+#include "scene/body_surface.h"
+#include "scene/body_triangles.h"
+#include "scene/build_body.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "body/geometry_keys.h"
-#include "body/mesh_pool.h"
+#include "scene/geometry_keys.h"
+#include "scene/mesh_pool.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "crossing_intervals.h"
-#include "pair_bound.h"
 #include "pair_result.h"
+#include "scene/pair_bound.h"
 
 namespace sdf_ccd {
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "common/infinity.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "motion/time_at.h"
-#include "pair_bound.h"
 #include "pose_rounding.h"
-#include "query/surfaces/plane_separation.h"
+#include "scene/pair_bound.h"
 #include "sdf_ccd/common/cancel.h"
+#include "surface/plane_separation.h"
 
 namespace sdf_ccd {
 namespace {

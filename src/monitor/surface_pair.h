@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "body/body_triangles.h"
-#include "query/surfaces/separation.h"
 #include "relative_motion.h"
+#include "scene/body_triangles.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "surface/separation.h"
 
 namespace sdf_ccd {
 

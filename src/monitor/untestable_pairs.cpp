@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/counted.h"
-#include "model/name_pair.h"
-#include "pair_bound.h"
+#include "scene/name_pair.h"
+#include "scene/pair_bound.h"
 
 namespace sdf_ccd {
 

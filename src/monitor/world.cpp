@@ -7,11 +7,12 @@
 #include <set>
 #include <unordered_map>
 
-#include "body/build_body.h"
 #include "common/seconds_since.h"
-#include "monitor/plan/scene_totals.h"
-#include "monitor/plan/surface_needs.h"
 #include "prepared_bodies.h"
+#include "resting_answers.h"
+#include "scene/build_body.h"
+#include "scene/plan/scene_totals.h"
+#include "scene/plan/surface_needs.h"
 #include "sdf_ccd/common/cancel.h"
 #include "untestable_pairs.h"
 
@@ -86,7 +87,7 @@ struct WorldEditor::Impl {
   PreparedBodies bodies;  // of the last version, and some that are no longer used
   std::unordered_map<std::string, Named> named;
   std::uint64_t last_id = 0, last_version = 0;
-  std::shared_ptr<RestingAnswers> resting;  // of all versions
+  std::shared_ptr<RestingAnswers> resting = std::make_shared<RestingAnswers>();  // of all versions
 };
 
 WorldEditor::WorldEditor(const BodyOptions& options) : impl_(new Impl) {
@@ -213,7 +214,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   });
   if (!are_ready) return nullptr;
   Scene scene = plannedScene(description, plan, impl_->options);
-  if (impl_->resting) scene.resting = impl_->resting;
+  scene.resting = impl_->resting;
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
   if (const std::string warning = warnOfUntestable(scene); !warning.empty()) snapshot->warnings.push_back(warning);
   setTotals(scene);

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "storage/temporary_file.h"
+#include "common/files/temporary_file.h"
 
 namespace sdf_ccd::precision {
 

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <vector>
 
+#include "common/files/regular_file.h"
 #include "common/shown_text.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,7 +6,7 @@
 #include "common/shown_text.h"
 #include "common/text_limits.h"
 #include "error_source.h"
-#include "model/pair_rules.h"
+#include "scene/pair_rules.h"
 #include "xml_text.h"
 
 namespace sdf_ccd {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/name_pair.h"
-#include "model/pair_rules.h"
+#include "scene/name_pair.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd {

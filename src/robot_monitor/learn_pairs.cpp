@@ -9,11 +9,11 @@
 #include <variant>
 
 #include "common/seconds_since.h"
-#include "geometry/unit_hint.h"
-#include "model/error_budget.h"
+#include "mesh/unit_hint.h"
 #include "observed_pairs.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
+#include "scene/error_budget.h"
 
 namespace sdf_ccd {
 namespace {

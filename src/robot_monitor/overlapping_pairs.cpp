@@ -6,11 +6,11 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
-#include "model/name_pair.h"
 #include "observed_pairs.h"
 #include "robot/joint_chain.h"
 #include "robot/joint_sampler.h"
 #include "robot/srdf_pairs.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "model/pair_rules.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot/robot_model.h"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/pair_rules.h"
 #include "monitor/pair_traits.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_model.h"
 

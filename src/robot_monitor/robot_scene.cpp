@@ -4,16 +4,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "body/body_options.h"
-#include "model/error_budget.h"
-#include "model/name_pair.h"
-#include "monitor/no_pairs.h"
 #include "motion/screw_motion.h"
 #include "motion/valid_pose.h"
 #include "robot/object_body.h"
 #include "robot/robot_files.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "robot_monitor/robot_scene_impl.h"
+#include "scene/body_options.h"
+#include "scene/error_budget.h"
+#include "scene/name_pair.h"
+#include "scene/no_pairs.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/pair_rules.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/monitor/world.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 #include "sdf_ccd/robot_scene.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "../geometry/mesh_edges.h"
+#include "mesh/mesh_edges.h"
 
 namespace sdf_ccd {
 namespace {

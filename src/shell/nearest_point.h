@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/trees/box_measures.h"
+#include "mesh/box_measures.h"
 #include "sampled_points.h"
 
 namespace sdf_ccd {

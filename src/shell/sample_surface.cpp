@@ -8,8 +8,8 @@
 #include "common/infinity.h"
 #include "common/number_text.h"
 #include "edge_sampling.h"
-#include "geometry/solid_boundary.h"
 #include "measure_shell.h"
+#include "solid/solid_boundary.h"
 #include "surface_filler.h"
 #include "surface_piece.h"
 

@@ -3,8 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/files/content_hash.h"
 #include "sdf_ccd/shell/point_shell.h"
-#include "storage/content_hash.h"
 
 namespace sdf_ccd {
 namespace {

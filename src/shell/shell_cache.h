@@ -1,8 +1,8 @@
 #pragma once
 
-#include "geometry/closed_solid.h"
+#include "common/files/file_cache.h"
 #include "sample_surface.h"
-#include "storage/file_cache.h"
+#include "solid/closed_solid.h"
 
 namespace sdf_ccd {
 

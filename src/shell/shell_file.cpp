@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "storage/checked_file.h"
-#include "storage/view.h"
+#include "common/files/checked_file.h"
+#include "common/files/view.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "geometry/corners.h"
+#include "mesh/corners.h"
 
 namespace sdf_ccd {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "commands.h"
+#include "common/files/checked_file.h"
 #include "common/number_text.h"
-#include "geometry/openings/openings.h"
 #include "lost_walls.h"
 #include "mesh_field.h"
 #include "output_file.h"
@@ -17,7 +17,7 @@
 #include "sdf_ccd/import/mesh_file.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "slice.h"
-#include "storage/checked_file.h"
+#include "solid/openings/openings.h"
 #include "time_option.h"
 
 namespace sdf_ccd::tools {

@@ -8,12 +8,12 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "interrupt.h"
-#include "model/name_pair.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "robot/robot_files.h"
 #include "robot/srdf_pairs.h"
 #include "robot_monitor/learn_pairs.h"
+#include "scene/name_pair.h"
 #include "threads_option.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "ros/bag/recorded_positions.h"

@@ -8,7 +8,7 @@
 
 #include "common/number_text.h"
 #include "common/parallel_for.h"
-#include "geometry/corners.h"
+#include "mesh/corners.h"
 
 namespace sdf_ccd::tools {
 namespace {

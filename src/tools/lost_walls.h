@@ -4,7 +4,7 @@
 #include <string>
 
 #include "field/lost_surface.h"
-#include "geometry/solid_boundary.h"
+#include "solid/solid_boundary.h"
 
 namespace sdf_ccd::tools {
 

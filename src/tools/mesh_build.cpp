@@ -5,7 +5,6 @@
 #include <iostream>
 #include <utility>
 
-#include "body/body_options.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "field/grid_cell.h"
@@ -13,6 +12,7 @@
 #include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
+#include "scene/body_options.h"
 #include "sdf_ccd/shell/point_shell.h"
 #include "shell/sample_surface.h"
 

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "field/lost_surface.h"
-#include "geometry/closed_solid.h"
-#include "geometry/solid_boundary.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
+#include "solid/closed_solid.h"
+#include "solid/solid_boundary.h"
 
 namespace sdf_ccd::tools {
 

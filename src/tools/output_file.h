@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "storage/temporary_file.h"
+#include "common/files/temporary_file.h"
 
 namespace sdf_ccd::tools {
 

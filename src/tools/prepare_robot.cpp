@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-#include "body/body_options.h"
-#include "model/error_budget.h"
 #include "prepare_scene.h"
 #include "robot/robot_files.h"
 #include "robot_monitor/overlapping_pairs.h"
+#include "scene/body_options.h"
+#include "scene/error_budget.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd::tools {

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "common/files/cache_directory.h"
+#include "common/files/file_cache.h"
 #include "common/number_text.h"
 #include "monitor/over_budget.h"
 #include "output_file.h"
-#include "storage/cache_directory.h"
-#include "storage/file_cache.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/files/regular_file.h"
 #include "common/read_number.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "output_file.h"
 #include "precision/gnuplot.h"
 #include "precision/report.h"

@@ -9,7 +9,7 @@
 
 #include "adversarial/duel.h"
 #include "motion/two_body_motion.h"
-#include "query/surfaces/separation.h"
+#include "surface/separation.h"
 
 namespace sdf_ccd::test {
 namespace {
@@ -84,9 +84,8 @@ sdf_ccd::Separation separate(const PublicQuery& query, double resolution) {
   const BoxTree a = treeOf(query.a), b = treeOf(query.b);
   const Isometry3d start = Isometry3d::Identity();
   const ScrewMotion X_WA(start, displaced(query.path_a)), X_WB(start, displaced(query.path_b));
-  const TwoBodyMotion motion{
-      0.0, 1.0, X_WA, X_WB,
-      relativeMotionBounds(worldTwist(X_WA, a.ball()), worldTwist(X_WB, b.ball())).acceleration};
+  const TwoBodyMotion motion{0.0, 1.0, X_WA, X_WB,
+                             relativeMotionBounds(worldTwist(X_WA, a.ball()), worldTwist(X_WB, b.ball())).acceleration};
   SeparationWitness witness;
   SeparationMemory memory;
   return sdf_ccd::separation(a, b, motion, {0.0, resolution, 1'000'000}, witness, memory);
@@ -121,8 +120,8 @@ Actor thinBody(const std::string& kind, const std::vector<Vector3d>& corners, do
   const Vector3d &from = corners.front(), &to = corners.back();
   const Vector3d along = to == from ? Vector3d::UnitZ() : Vector3d((to - from).normalized());
   const Vector3d u = half * along.unitOrthogonal(), v = along.cross(u), start = from - half * along;
-  return convexActor(kind, prism({start - u - v, start + u - v, start + u + v, start - u + v},
-                                 to - from + 2.0 * half * along));
+  return convexActor(
+      kind, prism({start - u - v, start + u - v, start + u + v, start - u + v}, to - from + 2.0 * half * along));
 }
 
 }  // namespace

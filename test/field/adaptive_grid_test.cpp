@@ -5,7 +5,7 @@
 
 #include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/box_union.h"
 #include "oracle/failure.h"
 #include "oracle/random.h"

@@ -8,7 +8,7 @@
 #include "field/grid_cell.h"
 #include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/field_file_case.h"
 #include "field/opening_caps.h"
@@ -18,7 +19,6 @@
 #include "oracle/mended_file.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd::field_file_test {
 

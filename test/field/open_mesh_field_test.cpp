@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "geometry/openings/openings.h"
-#include "geometry/solid_boundary.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/parameter_name.h"
@@ -11,6 +9,8 @@
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
+#include "solid/openings/openings.h"
+#include "solid/solid_boundary.h"
 
 namespace sdf_ccd::open_mesh_field_test {
 

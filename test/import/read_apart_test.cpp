@@ -1,4 +1,4 @@
-#include "import/read_apart.h"
+#include "mesh/import/read_apart.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "import/fake_reader.h"
-#include "import/read_answer.h"
+#include "mesh/import/read_answer.h"
 #include "oracle/failure.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"

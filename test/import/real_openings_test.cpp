@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include "geometry/openings/openings.h"
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 #include "sdf_ccd/import/mesh_file.h"
+#include "solid/openings/openings.h"
 
 namespace sdf_ccd::real_openings_test {
 

@@ -1,4 +1,4 @@
-#include "storage/regular_file.h"
+#include "common/files/regular_file.h"
 
 #include <fcntl.h>
 #include <sys/socket.h>

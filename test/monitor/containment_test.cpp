@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "body/body_triangles.h"
 #include "monitor/surface_pair_case.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
+#include "scene/body_triangles.h"
 
 namespace sdf_ccd::containment_test {
 

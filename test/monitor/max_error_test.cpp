@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "model/error_budget.h"
 #include "oracle/failure.h"
 #include "oracle/scene_case.h"
+#include "scene/error_budget.h"
 
 namespace sdf_ccd::max_error_test {
 

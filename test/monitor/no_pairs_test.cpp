@@ -1,4 +1,4 @@
-#include "monitor/no_pairs.h"
+#include "scene/no_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "body/body_surface.h"
 #include "oracle/open_shapes.h"
 #include "oracle/scene_case.h"
+#include "scene/body_surface.h"
 
 namespace sdf_ccd::open_mesh_test {
 

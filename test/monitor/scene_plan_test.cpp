@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "model/name_pair.h"
 #include "oracle/scene_case.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd::scene_plan_test {
 

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "body/body_triangles.h"
-#include "geometry/mesh_edges.h"
+#include "mesh/mesh_edges.h"
 #include "monitor/surface_pair_case.h"
 #include "oracle/random.h"
+#include "scene/body_triangles.h"
 #include "sdf_ccd/geometry/mesh_quality.h"
 
 namespace sdf_ccd::surface_pair_test {

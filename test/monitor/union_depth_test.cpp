@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <random>
 
-#include "body/body_options.h"
-#include "body/union_depth.h"
 #include "oracle/box_union.h"
 #include "oracle/scene_case.h"
+#include "scene/body_options.h"
+#include "scene/union_depth.h"
 #include "sdf_ccd/monitor/nearest_body.h"
 
 namespace sdf_ccd::union_depth_test {

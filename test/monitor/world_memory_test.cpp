@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "body/body_triangles.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
+#include "scene/body_triangles.h"
 #include "sdf_ccd/monitor/world.h"
 
 namespace sdf_ccd::world_memory_test {

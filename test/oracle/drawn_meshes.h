@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "oracle/shapes.h"
 
 /// Meshes as people draw them: sheets, walls from both sides, open parts, parts inside out.

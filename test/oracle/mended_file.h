@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/files/checked_file.h"
 #include "oracle/random.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd::test {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/triangle.h"
+#include "mesh/triangle.h"
 #include "oracle/shapes.h"
 
 /// Meshes that are not closed.

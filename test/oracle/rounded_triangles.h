@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "geometry/corners.h"
-#include "geometry/trees/box_tree.h"
+#include "mesh/corners.h"
 #include "oracle/triangle_distance.h"
+#include "surface/box_tree.h"
 
 /// Surfaces of rounded triangles, and their distances by brute force.
 namespace sdf_ccd::test {

@@ -1,4 +1,4 @@
-#include "reader/confine.h"
+#include "mesh/reader/confine.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "mesh/reader/octree_file.h"
+#include "mesh/reader/parse_mesh.h"
+#include "mesh/reader/parse_octomap.h"
 #include "oracle/files.h"
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "reader/octree_file.h"
-#include "reader/parse_mesh.h"
-#include "reader/parse_octomap.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::damaged_file_test {

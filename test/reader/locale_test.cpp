@@ -1,13 +1,13 @@
 // The program that reads meshes gets the environment of the one that starts it, a library that sets a locale among it.
 #include <gtest/gtest.h>
 
+#include "common/files/content_hash.h"
+#include "mesh/reader/dae_file.h"
+#include "mesh/reader/octree_file.h"
+#include "mesh/reader/parse_mesh.h"
 #include "oracle/german_locale.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "reader/dae_file.h"
-#include "reader/octree_file.h"
-#include "reader/parse_mesh.h"
-#include "storage/content_hash.h"
 
 namespace sdf_ccd::locale_test {
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "mesh/reader/parse_mesh.h"
 #include "oracle/failure.h"
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "reader/parse_mesh.h"
 #include "sdf_ccd/import/mesh_file.h"
 
 namespace sdf_ccd::mesh_formats_test {

@@ -1,12 +1,12 @@
-#include "geometry/voxel_rectangles.h"
+#include "mesh/voxel_rectangles.h"
 
 #include <array>
 #include <map>
 
 #include <gtest/gtest.h>
 
+#include "mesh/reader/voxel_surface.h"
 #include "oracle/random.h"
-#include "reader/voxel_surface.h"
 
 namespace sdf_ccd::voxel_rectangles_test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/name_pair.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/describe_robot.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "model/name_pair.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/robot/describe_robot.h"
 

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "body/body_options.h"
-#include "model/error_budget.h"
 #include "oracle/files.h"
 #include "robot_monitor/robot_scene_case.h"
+#include "scene/body_options.h"
+#include "scene/error_budget.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 
 namespace sdf_ccd::robot_scene_test {

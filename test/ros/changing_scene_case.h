@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "model/name_pair.h"
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "ros/tf_messages.h"
 #include "ros/world/changing_scene.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd::test {
 

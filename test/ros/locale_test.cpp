@@ -1,12 +1,12 @@
 // The nodelet runs in others' processes, which may have chosen a locale.
 #include <gtest/gtest.h>
 
+#include "common/settings/settings_reader.h"
+#include "common/settings/yaml_settings.h"
 #include "oracle/files.h"
 #include "oracle/german_locale.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_file.h"
-#include "settings/settings_reader.h"
-#include "settings/yaml_settings.h"
 
 namespace sdf_ccd::locale_test {
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/settings/yaml_settings.h"
 #include "oracle/failure.h"
 #include "ros/parameters/server_parameters.h"
-#include "settings/yaml_settings.h"
 
 namespace sdf_ccd::parameters_test {
 

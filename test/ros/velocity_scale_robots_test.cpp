@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "model/name_pair.h"
 #include "oracle/files.h"
 #include "oracle/test_data.h"
 #include "ros/monitor/proximity_measure.h"
 #include "ros/tf_messages.h"
 #include "ros/world/describe_scene.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd::velocity_scale_robots_test {

@@ -1,9 +1,9 @@
-#include "settings/settings_reader.h"
+#include "common/settings/settings_reader.h"
 
 #include <gtest/gtest.h>
 
+#include "common/settings/yaml_settings.h"
 #include "oracle/failure.h"
-#include "settings/yaml_settings.h"
 
 namespace sdf_ccd::settings_reader_test {
 

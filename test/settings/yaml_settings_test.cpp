@@ -1,10 +1,10 @@
-#include "settings/yaml_settings.h"
+#include "common/settings/yaml_settings.h"
 
 #include <gtest/gtest.h>
 
+#include "common/settings/settings_reader.h"
 #include "oracle/failure.h"
 #include "oracle/files.h"
-#include "settings/settings_reader.h"
 
 namespace sdf_ccd::yaml_settings_test {
 

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../src/shell/flat_pieces.h"
 #include "common/infinity.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/geometry/primitive.h"
 #include "sdf_ccd/import/mesh_file.h"
+#include "shell/flat_pieces.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::contact_gap_test {

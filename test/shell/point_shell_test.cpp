@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "shell/sample_surface.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/processor_time.h"
-#include "geometry/trees/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/import/mesh_file.h"

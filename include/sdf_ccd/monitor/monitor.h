@@ -173,7 +173,7 @@ class MonitorChange {
 /// Surfaces decide (meshes, voxels, primitives: Body::triangles, and half-spaces). Two bodies are CLEAR if their
 /// surfaces are proved to stay farther apart than the error of the motions, and no part of one is wholly inside the
 /// other. They are in CONTACT if the surfaces certainly cross at some time, or a point of one is certainly inside the
-/// other. This holds to MonitorOptions::max_error (src/query/surfaces/separation.h; design §3.17); what comes too close
+/// other. This holds to MonitorOptions::max_error (src/surface/separation.h; design §3.17); what comes too close
 /// to decide is UNCERTAIN, as is what may have come through the opening of a mesh. PairResult::error is that of the
 /// triangles and motions, for an UNCERTAIN pair plus the distance within which it is open. Pairs are NOT_CHECKED if a
 /// body is missing or beyond kFarthestPose, or both have half-spaces.

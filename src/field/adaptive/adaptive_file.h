@@ -3,10 +3,10 @@
 #include <optional>
 #include <string>
 
+#include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/lost_surface.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "storage/checked_file.h"
 
 namespace sdf_ccd {
 
@@ -14,8 +14,8 @@ namespace sdf_ccd {
 constexpr char kAdaptiveFileKind[] = "adaptive field";
 
 /// As saveField(). @param grid  of the field.
-void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path,
-                  const std::string& key, const std::optional<LostSurface>& lost);
+void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const std::string& path, const std::string& key,
+                  const std::optional<LostSurface>& lost);
 
 /// As loadField().
 DistanceField loadAdaptive(const std::string& path, const std::string& key);

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "field/uniform/sparse_grid.h"
-#include "geometry/solid_boundary.h"
 #include "sdf_ccd/field/build_field.h"
+#include "solid/solid_boundary.h"
 
 namespace sdf_ccd {
 

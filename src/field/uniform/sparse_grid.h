@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "common/files/view.h"
 #include "field/empty_sphere.h"
 #include "sdf_ccd/common/eigen_types.h"
-#include "storage/view.h"
 
 namespace sdf_ccd {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
-#include "geometry/octree_leaves.h"
+#include "mesh/octree_leaves.h"
 #include "sdf_ccd/common/cancel.h"
 #include "voxels_near.h"
 

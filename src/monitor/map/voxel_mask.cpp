@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "body/body_builder.h"
-#include "body/body_surface.h"
 #include "common/infinity.h"
+#include "scene/body_builder.h"
+#include "scene/body_surface.h"
 #include "sdf_ccd/monitor/scene.h"
 
 namespace sdf_ccd {

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "common/number_text.h"
-#include "model/name_pair.h"
 #include "motion/screw_motion.h"
 #include "ros/messages/shape_marker.h"
 #include "ros/messages/status_text.h"
 #include "ros/tf/seconds_between.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/number_text.h"
-#include "model/name_pair.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,11 +8,11 @@
 
 #include <ros/console.h>
 
-#include "body/body_builder.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
 #include "ros/tf/tf_tracker.h"
+#include "scene/body_builder.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -6,11 +6,11 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
-#include "monitor/no_pairs.h"
 #include "monitor/over_budget.h"
 #include "ros/monitor/unchecked.h"
 #include "ros/tf/prefix_hint.h"
 #include "ros/tf/seconds_between.h"
+#include "scene/no_pairs.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "monitor/plan/scene_totals.h"
+#include "scene/plan/scene_totals.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,9 +3,9 @@
 #include <ros/console.h>
 #include <std_msgs/Float64.h>
 
-#include "model/name_pair.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/ways_out_message.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 

@@ -16,11 +16,11 @@
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"
-#include "model/name_pair.h"
 #include "monitor/pair_times.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/low_priority.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/common/cancel.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "common/counted.h"
-#include "model/name_pair.h"
 #include "ros/tf/seconds_between.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <tuple>
 
-#include "body/body_options.h"
 #include "common/number_text.h"
-#include "model/error_budget.h"
+#include "dynamics/scene_settings.h"
 #include "ros/parameters/server_parameters.h"
 #include "ros/parameters/world_parameters.h"
-#include "settings/scene_settings.h"
+#include "scene/body_options.h"
+#include "scene/error_budget.h"
 
 namespace sdf_ccd {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <ros/node_handle.h>
 
-#include "model/pair_rules.h"
+#include "common/settings/setting.h"
 #include "monitor/contact_tracker.h"
 #include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
@@ -19,9 +19,9 @@
 #include "ros/parameters/world_object.h"
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/describe_robot.h"
-#include "settings/setting.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 
 #include "common/refuse.h"
 #include "common/shown_text.h"
-#include "model/pair_rules.h"
+#include "scene/pair_rules.h"
 
 namespace sdf_ccd {
 namespace {

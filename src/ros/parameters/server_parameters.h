@@ -2,7 +2,7 @@
 
 #include <XmlRpcValue.h>
 
-#include "settings/setting.h"
+#include "common/settings/setting.h"
 
 namespace sdf_ccd {
 

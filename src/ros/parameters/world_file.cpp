@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "common/files/regular_file.h"
+#include "common/settings/yaml_settings.h"
 #include "common/text_limits.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_parameters.h"
-#include "settings/yaml_settings.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/generated_mesh.h"
+#include "mesh/generated_mesh.h"
 #include "motion/valid_pose.h"
 #include "sdf_ccd/robot/world_object.h"
 

@@ -1,6 +1,6 @@
 #include "ros/parameters/world_parameters.h"
 
-#include "settings/scene_settings.h"
+#include "dynamics/scene_settings.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "common/settings/settings_reader.h"
 #include "ros/parameters/world_object.h"
-#include "settings/settings_reader.h"
 
 namespace sdf_ccd {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "common/counted.h"
-#include "model/name_pair.h"
 #include "robot/joint_chain.h"
 #include "ros/world/changing_scene_start_up.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -6,12 +6,12 @@
 #include "common/refuse.h"
 #include "common/shown_text.h"
 #include "common/text_limits.h"
-#include "model/name_pair.h"
 #include "robot/object_body.h"
 #include "ros/parameters/moveit_scene.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/changing_scene_start_up.h"
 #include "ros/world/world_bodies.h"
+#include "scene/name_pair.h"
 #include "sdf_ccd/common/cancel.h"
 
 namespace sdf_ccd {

@@ -4,11 +4,11 @@
 #include <map>
 #include <stdexcept>
 
+#include "common/files/regular_file.h"
 #include "common/shown_text.h"
 #include "robot/object_body.h"
 #include "ros/parameters/world_file.h"
 #include "ros/world/world_bodies.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/files/linkless_path.h"
+#include "common/files/temporary_file.h"
 #include "common/shown_text.h"
-#include "storage/linkless_path.h"
-#include "storage/temporary_file.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "common/files/regular_file.h"
 #include "sdf_ccd/robot/describe_robot.h"
-#include "storage/regular_file.h"
 
 namespace sdf_ccd {
 

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "model/pair_rules.h"
 #include "ros/parameters/request_permissions.h"
+#include "scene/pair_rules.h"
 
 namespace sdf_ccd {
 

@@ -1,8 +1,8 @@
 #include "ros/world/world_bodies.h"
 
-#include "model/pair_rules.h"
 #include "robot/object_body.h"
 #include "ros/parameters/moveit_scene.h"
+#include "scene/pair_rules.h"
 
 namespace sdf_ccd {
 

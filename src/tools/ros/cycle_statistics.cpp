@@ -7,9 +7,9 @@
 
 #include "common/counted.h"
 #include "common/number_text.h"
-#include "model/name_pair.h"
 #include "precision/error_summary.h"
 #include "ros/messages/conversions.h"
+#include "scene/name_pair.h"
 
 namespace sdf_ccd::tools {
 namespace {

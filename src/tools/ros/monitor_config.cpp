@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "common/settings/yaml_settings.h"
 #include "robot/robot_files.h"
-#include "settings/yaml_settings.h"
 
 namespace sdf_ccd::tools {
 namespace {

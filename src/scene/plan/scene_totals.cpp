@@ -1,0 +1,53 @@
+#include "scene_totals.h"
+
+#include <algorithm>
+
+#include "scene/pair_bound.h"
+
+namespace sdf_ccd {
+namespace {
+
+bool isLarger(const ErrorSources& a, const ErrorSources& b) {
+  return a.total() > b.total();
+}
+
+}  // namespace
+
+Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, const BodyOptions& options) {
+  Scene scene;
+  scene.pairs = plan.pairs;
+  scene.left_out = plan.left_out;
+  scene.parts_left_out = plan.parts_left_out;
+  scene.visual_only = description.visual_only;
+  scene.max_error = options.max_error;
+  scene.motion_margin = options.motion_margin;
+  scene.motion_error = options.motion_error;
+  return scene;
+}
+
+std::size_t pairsOfObjects(const BodyList& bodies) {
+  const std::size_t objects =
+      std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_world; });
+  return objects * (objects - std::min<std::size_t>(objects, 1)) / 2;
+}
+
+void setTotals(Scene& scene) {
+  scene.bound = scene.contact_bound = {};
+  for (BodyReport& report : scene.reports) {
+    report.bound = {};
+    report.pairs = 0;
+  }
+  for (const PlannedPair& pair : scene.pairs) {
+    ++scene.reports[pair.body_a].pairs;
+    ++scene.reports[pair.body_b].pairs;
+    if (!haveSurfaces(scene, pair)) continue;  // one of the bodies was not built
+    ErrorSources of_contacts = contactBound(scene, pair);
+    of_contacts.chord = scene.motion_margin;
+    const ErrorSources bound{0.0, scene.motion_error, 0.0, deviationOf(scene, pair)};
+    if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
+    for (ErrorSources* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
+      if (isLarger(bound, *largest)) *largest = bound;
+  }
+}
+
+}  // namespace sdf_ccd
