@@ -13,21 +13,6 @@ namespace {
 /// line in which they meet.
 constexpr double kShallow = 1e-5;
 
-/// Another triangle in the coordinates of the plane of the one that is cut.
-struct Other {
-  enum Kind {
-    kApart,    ///< does not reach the plane
-    kCrosses,  ///< meets it in a segment
-    kShallow,  ///< nearly parallel to it
-    kUnclear,  ///< so thin that it has no certain plane, and nearly parallel
-  };
-  Kind kind = kApart;
-  int triangle = -1;
-  std::array<Vector2d, 3> at;
-  std::array<double, 3> height;
-  Vector2d from, to;  ///< of the segment
-};
-
 /// How another triangle affects a part.
 struct Relation {
   enum Kind { kNone, kCut, kLayer, kUnclear };
@@ -38,16 +23,24 @@ struct Relation {
   bool doubtful = false;  ///< the front and back of the part alone may not decide the side
 };
 
-double heightAt(const Other& other, const Vector2d& x) {
-  const Vector2d u = other.at[1] - other.at[0], v = other.at[2] - other.at[0], w = x - other.at[0];
-  const double area = u.x() * v.y() - u.y() * v.x();
-  const double s = (w.x() * v.y() - w.y() * v.x()) / area, t = (u.x() * w.y() - u.y() * w.x()) / area;
-  return other.height[0] + s * (other.height[1] - other.height[0]) + t * (other.height[2] - other.height[0]);
-}
-
 }  // namespace
 
 class TriangleCutter::Task {
+  /// Another triangle in the coordinates of the plane of the one that is cut.
+  struct Other {
+    enum Kind {
+      kApart,    ///< does not reach the plane
+      kCrosses,  ///< meets it in a segment
+      kShallow,  ///< nearly parallel to it
+      kUnclear,  ///< so thin that it has no certain plane, and nearly parallel
+    };
+    Kind kind = kApart;
+    int triangle = -1;
+    std::array<Vector2d, 3> at;
+    std::array<double, 3> height;
+    Vector2d from, to;  ///< of the segment
+  };
+
  public:
   Task(const TriangleCutter& cutter, int triangle, const Cost& most)
       : cutter_(cutter), triangle_(triangle), most_(most) {
@@ -77,6 +70,13 @@ class TriangleCutter::Task {
 
  private:
   Vector2d flat(const Vector3d& p) const { return {u_.dot(p - corners_[0]), v_.dot(p - corners_[0])}; }
+
+  static double heightAt(const Other& other, const Vector2d& x) {
+    const Vector2d u = other.at[1] - other.at[0], v = other.at[2] - other.at[0], w = x - other.at[0];
+    const double area = u.x() * v.y() - u.y() * v.x();
+    const double s = (w.x() * v.y() - w.y() * v.x()) / area, t = (u.x() * w.y() - u.y() * w.x()) / area;
+    return other.height[0] + s * (other.height[1] - other.height[0]) + t * (other.height[2] - other.height[0]);
+  }
 
   Other seen(int id) const {
     const SurfaceTolerance& tolerance = cutter_.tolerance_;
