@@ -221,7 +221,7 @@ TEST_F(ChangingSceneTest, AppendsShapesToAnObjectWhereItIs) {
   EXPECT_EQ(refusal(append), "there is no object box");
   apply({box(), append});
   ASSERT_EQ(body("box").geometry.size(), 2u);
-  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).half_size, Vector3d(0.1, 0.2, 0.3));
+  EXPECT_EQ(std::get<Box>(std::get<Primitive>(body("box").geometry[0].shape)).size, Vector3d(0.2, 0.4, 0.6));
   EXPECT_EQ(std::get<Sphere>(std::get<Primitive>(body("box").geometry[1].shape)).radius, 0.5);
   EXPECT_EQ(body("box").geometry[1].X_BG.translation(), Vector3d(0, 0, 2));
   EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
