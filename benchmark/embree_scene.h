@@ -6,7 +6,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd::benchmark {

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "oracle/random.h"
-#include "sdf_ccd/body/prepare_body.h"
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd::benchmark {
 

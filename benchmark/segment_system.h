@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 #include "sdf_ccd/query/segment_query.h"
 
 namespace sdf_ccd::benchmark {

@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "oracle/shapes.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd::benchmark {
 
@@ -47,7 +47,8 @@ int runStudy(int argc, char** argv, const std::string& description, const StudyO
   app.add_option("--robot", options.robots, "NAME=URDF[,SRDF], as often as wanted; for `robots` and `monitor`");
   app.add_option("--bag", options.bag, "in which the robot moves (anytime); without it, a motion of our own");
   app.add_option("--map", options.map, "an OctoMap, .bt (map); without it, a room of our own");
-  app.add_option("--queries", options.queries, "folder of Sample-Queries (truth); without it, the family public is left out");
+  app.add_option("--queries", options.queries,
+                 "folder of Sample-Queries (truth); without it, the family public is left out");
   app.add_option("--meshes", options.meshes, "only those names")->delimiter(',');
   app.add_option("--cells", options.cells, "uniform fields: cells along the longest side")->delimiter(',');
   app.add_option("--errors", options.errors, "fields to a maximum error, in box sides")->delimiter(',');

@@ -3,9 +3,9 @@
 #include <cstdio>
 
 #include <sdf_ccd/field/build_field.h>
-#include <sdf_ccd/geometry/mesh_quality.h>
-#include <sdf_ccd/geometry/primitive.h>
-#include <sdf_ccd/import/mesh_file.h>
+#include <sdf_ccd/mesh/mesh_file.h>
+#include <sdf_ccd/mesh/mesh_quality.h>
+#include <sdf_ccd/mesh/primitive.h>
 #include <sdf_ccd/query/segment_query.h>
 
 int main(int argc, char** argv) {

@@ -5,7 +5,7 @@
 
 #include <fcl/narrowphase/collision_object.h>
 
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd::benchmark {
 

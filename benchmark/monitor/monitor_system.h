@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -5,7 +5,7 @@
 
 #include "common/settings/settings_reader.h"
 #include "sdf_ccd/contact/contact_model.h"
-#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/mesh/primitive.h"
 
 /// What scenes of the monitor and of the simulation have in common.
 namespace sdf_ccd {

@@ -4,8 +4,8 @@
 
 #include "dynamics/scene_settings.h"
 #include "mesh/generated_mesh.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "common/files/content_hash.h"
 #include "field/opening_caps.h"
 #include "field/source_field.h"
+#include "mesh/content_hash.h"
 #include "sdf_ccd/field/distance_field.h"
 
 namespace sdf_ccd {

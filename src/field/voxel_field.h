@@ -7,7 +7,7 @@
 #include "mesh/voxel_solid.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 
 namespace sdf_ccd {
 

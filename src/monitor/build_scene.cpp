@@ -12,7 +12,7 @@
 #include "scene/plan/scene_totals.h"
 #include "scene/plan/surface_needs.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/scene/scene.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/scene/body.h"
 
 namespace sdf_ccd {
 

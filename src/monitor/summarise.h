@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "measure.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 #include "sdf_ccd/query/segment_query.h"
 
 /// Studies of error against run time. Each runs the same queries on every system at every setting, in turn, on one

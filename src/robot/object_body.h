@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot/world_object.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

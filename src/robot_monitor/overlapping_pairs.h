@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "scene/pair_rules.h"
-#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 

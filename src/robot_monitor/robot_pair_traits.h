@@ -9,8 +9,8 @@
 
 #include "monitor/pair_traits.h"
 #include "scene/pair_rules.h"
-#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 

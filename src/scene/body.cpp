@@ -1,4 +1,4 @@
-#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/scene/body.h"
 
 #include <stdexcept>
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "common/files/content_hash.h"
+#include "mesh/content_hash.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,8 +6,8 @@
 #include "field/opening_caps.h"
 #include "field/signed_surface.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/scene/scene_description.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

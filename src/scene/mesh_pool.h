@@ -9,10 +9,10 @@
 #include "common/time_limit.h"
 #include "common/weak_store.h"
 #include "scene/geometry_keys.h"
-#include "sdf_ccd/body/prepare_body.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/scene/scene_description.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "common/infinity.h"
-#include "sdf_ccd/body/body.h"
+#include "sdf_ccd/scene/body.h"
 
 namespace sdf_ccd {
 

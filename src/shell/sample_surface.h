@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/mesh/primitive.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/files/content_hash.h"
+#include "mesh/content_hash.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

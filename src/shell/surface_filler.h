@@ -8,7 +8,7 @@
 #include "sample_surface.h"
 #include "sampled_points.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 #include "field/lost_surface.h"
 #include "sdf_ccd/field/build_field.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 #include "solid/closed_solid.h"
 #include "solid/solid_boundary.h"
 

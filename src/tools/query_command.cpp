@@ -22,7 +22,7 @@
 #include "query/least_distance.h"
 #include "resolution_options.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "segment_csv.h"
 #include "time_option.h"

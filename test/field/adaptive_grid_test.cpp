@@ -12,8 +12,8 @@
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd::adaptive_grid_test {
 

@@ -13,8 +13,8 @@
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd::distance_field_test {
 

@@ -3,7 +3,7 @@
 
 #include "oracle/drawn_meshes.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd::drawn_mesh_test {
 

@@ -7,7 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/mesh/primitive.h"
 
 namespace sdf_ccd::empty_sphere_test {
 

@@ -7,8 +7,8 @@
 #include "oracle/test_data.h"
 #include "oracle/winding_number.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 #include "solid/openings/openings.h"
 #include "solid/solid_boundary.h"
 

@@ -16,7 +16,7 @@
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
 
 namespace sdf_ccd::read_apart_test {
 

@@ -3,7 +3,7 @@
 #include "oracle/shapes.h"
 #include "sdf_ccd/dynamics/rigid_world.h"
 #include "sdf_ccd/dynamics/simulation.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
 
 /// Rigid bodies for tests and studies.
 namespace sdf_ccd::test {

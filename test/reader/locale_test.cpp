@@ -1,7 +1,7 @@
 // The program that reads meshes gets the environment of the one that starts it, a library that sets a locale among it.
 #include <gtest/gtest.h>
 
-#include "common/files/content_hash.h"
+#include "mesh/content_hash.h"
 #include "mesh/reader/dae_file.h"
 #include "mesh/reader/octree_file.h"
 #include "mesh/reader/parse_mesh.h"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "robot_monitor/check_motion_case.h"
-#include "sdf_ccd/body/prepare_body.h"
+#include "sdf_ccd/scene/prepare_body.h"
 
 namespace sdf_ccd::check_motion_test {
 

@@ -9,8 +9,8 @@
 #include "oracle/hostile_files.h"
 #include "oracle/parameter_name.h"
 #include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd::hostile_mesh_test {
 

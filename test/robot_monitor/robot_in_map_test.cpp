@@ -12,7 +12,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/import/mesh_file.h"
+#include "sdf_ccd/mesh/mesh_file.h"
 #include "sdf_ccd/monitor/monitor.h"
 #include "sdf_ccd/robot/describe_robot.h"
 #include "sdf_ccd/robot_monitor/check_motion.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/files/content_hash.h"
+#include "mesh/content_hash.h"
 #include "oracle/shapes.h"
 #include "oracle/xxh64_twin.h"
 #include "scene/geometry_keys.h"

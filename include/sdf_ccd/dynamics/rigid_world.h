@@ -8,8 +8,8 @@
 
 #include "sdf_ccd/contact/contact_model.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

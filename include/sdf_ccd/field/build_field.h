@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "sdf_ccd/geometry/primitive.h"
+#include "sdf_ccd/mesh/primitive.h"
 
 namespace sdf_ccd {
 

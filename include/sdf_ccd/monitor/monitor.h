@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "sdf_ccd/contact/contact_model.h"
-#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/motion/cycle_motion.h"
 #include "sdf_ccd/query/segment_query.h"
 #include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/body/prepare_body.h"
-#include "sdf_ccd/model/scene_description.h"
-#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

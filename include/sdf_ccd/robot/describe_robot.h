@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

@@ -9,7 +9,7 @@
 #include <urdf_model/model.h>
 
 #include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

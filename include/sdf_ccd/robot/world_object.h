@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 
 namespace sdf_ccd {
 

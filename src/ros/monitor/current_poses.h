@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "ros/tf/robot_frames.h"
-#include "sdf_ccd/monitor/scene.h"
 #include "sdf_ccd/robot/planned_motion.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 

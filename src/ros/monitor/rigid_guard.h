@@ -4,7 +4,7 @@
 
 #include "monitor/rigid_watch.h"
 #include "ros/tf/tf_tracker.h"
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

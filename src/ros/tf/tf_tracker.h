@@ -5,7 +5,7 @@
 
 #include "motion/sample_motion.h"
 #include "ros/tf/tf_history.h"
-#include "sdf_ccd/monitor/scene.h"
+#include "sdf_ccd/scene/scene.h"
 
 namespace sdf_ccd {
 
@@ -65,8 +65,8 @@ struct TrackedCycle {
 /// frame's pairs go back to their time, unless that is more than max_cycle ago or more than four times the time of the
 /// last cycles would be checked again; then its bodies are missing from that time on.
 ///
-/// A body that moves by more than 100 m at over 1000 m/s, also as a body of its pairs sees it, has jumped: it is missing
-/// for the cycle. That is measured at the bodies, not at the origins of their frames.
+/// A body that moves by more than 100 m at over 1000 m/s, also as a body of its pairs sees it, has jumped: it is
+/// missing for the cycle. That is measured at the bodies, not at the origins of their frames.
 ///
 /// A cycle with more than 300,000 poses of bodies that move is not checked at all, so that no node can make a cycle
 /// last forever or use up the memory. Bodies without a moving frame in their chain have one pose per cycle.

@@ -9,8 +9,8 @@
 
 #include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/scene/scene_description.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {

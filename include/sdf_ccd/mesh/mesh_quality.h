@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 
 namespace sdf_ccd {
 
@@ -41,7 +41,8 @@ struct OrientedMesh {
 ///
 /// A closed component that no other closed one contains is flipped to enclose positive volume; one inside others stays
 /// unchanged: a cavity if it faces its inside, else a solid within a solid. If all components that no other one
-/// contains are inside out, the whole file is, and everything is flipped. Open parts are flipped if their back is visible from outside.
+/// contains are inside out, the whole file is, and everything is flipped. Open parts are flipped if their back is
+/// visible from outside.
 ///
 /// The mesh is doubtful if one of several parts had to be flipped, is drawn in both orientations, or intersects itself
 /// so that it is inside out in places; if a cavity does not lie in exactly one other part, apart from it; or if a wall

@@ -8,9 +8,9 @@
 
 #include "sdf_ccd/common/eigen_types.h"
 #include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/geometry/mesh_quality.h"
-#include "sdf_ccd/geometry/primitive.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
+#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
 
 namespace sdf_ccd {
 

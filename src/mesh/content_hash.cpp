@@ -1,4 +1,4 @@
-#include "common/files/content_hash.h"
+#include "mesh/content_hash.h"
 
 #include <cstdint>
 #include <cstring>

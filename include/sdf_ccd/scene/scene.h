@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/body/body.h"
-#include "sdf_ccd/body/prepare_body.h"
-#include "sdf_ccd/model/scene_description.h"
 #include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/scene/body.h"
+#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/scene/scene_description.h"
 
 namespace sdf_ccd {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "sdf_ccd/body/body.h"
 #include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/geometry/triangle_mesh.h"
-#include "sdf_ccd/model/scene_description.h"
+#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/scene/body.h"
+#include "sdf_ccd/scene/scene_description.h"
 #include "sdf_ccd/shell/point_shell.h"
 
 namespace sdf_ccd {
