@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "monitor/pair_distances.h"
-#include "monitor/pair_traits.h"
 #include "monitor/proximity.h"
-#include "monitor/velocity_scale.h"
+#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_traits.h"
+#include "sdf_ccd/monitor/velocity_scale.h"
 
 namespace sdf_ccd {
 

@@ -1,16 +1,17 @@
-#include "monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "monitor/contact_tracker.h"
 #include "monitor/pose_rounding.h"
 #include "motion/two_body_motion.h"
 #include "scene/body_triangles.h"
 #include "scene/pair_bound.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 #include "surface/moving_boxes.h"
 #include "surface/plane_separation.h"
+#include "surface/separation.h"
 #include "surface/surface_distance.h"
 
 namespace sdf_ccd {
@@ -36,10 +37,87 @@ double closingAlong(const Vector3d& n_F, const Isometry3d& X_from, const Isometr
 
 }  // namespace
 
-PairDistances::PairDistances(std::shared_ptr<const Scene> scene)
-    : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
+struct PairDistances::Impl {
+  explicit Impl(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)), pairs_(scene_->pairs.size()) {}
+
+  const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range,
+                                          const CycleRecord& record);
+  void forget();
+  void take(Impl& before, const std::vector<int>& pairs_now);
+
+  static constexpr double kNotMeasured = -1.0;  // below any range
+
+  /// The last measurement of two surfaces of triangles, for bodies that do not move relative to each other.
+  struct SurfaceMeasurement {
+    Isometry3d X_AB = Isometry3d::Identity();
+    double limit = kNotMeasured;             // farther surfaces were not measured [m]
+    std::optional<SurfaceDistance> nearest;  // none: farther than the limit
+    std::optional<double> slab;
+  };
+
+  struct Pair {
+    double known_within = kNotMeasured;  // range of the last measurement [m]; kNotMeasured: not measured
+    SeparationWitness witness;
+    SurfaceMeasurement surfaces;
+    PairDistance last;  // valid if is_near
+    bool is_near = false;
+  };
+
+  void measure(std::size_t pair, const CycleMotion& motion, const PairResult& result, double range,
+               const CycleRecord& record);
+  bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
+  bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
+                         PairDistance& found);
+  double measureSurfaces(std::size_t pair, const Isometry3d& X_AB, double limit);
+  bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
+  bool nearestOfPlane(std::size_t pair, bool plane_is_a, const BodyHalfSpace& plane, const Isometry3d& X_WF,
+                      const Isometry3d& X_WP, double range, PairDistance& found);
+
+  /// Motion of P relative to F from the waypoint before `last` to `last`.
+  struct Step {
+    bool f_is_a;
+    Isometry3d X_then, X_now;
+    const BoundingBall& ball;  // of P
+  };
+  Step stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const;
+  double travelSince(double time, const CycleMotion& motion, const PairResult& result) const;
+  void setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
+                 PairDistance& found) const;
+
+  std::shared_ptr<const Scene> scene_;
+  std::vector<Pair> pairs_;
+  std::vector<PairDistance> near_;
+  std::chrono::nanoseconds origin_{0};  // of the last cycle
+  bool has_unknown_ = false;
+  bool is_empty_ = true;  // nothing is stored
+  SeparationMemory memory_;
+};
+
+PairDistances::PairDistances(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+PairDistances::~PairDistances() = default;
+
+const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
+                                                       double range, const CycleRecord& record) {
+  return impl_->update(motion, result, range, record);
+}
+
+const std::vector<PairDistance>& PairDistances::near() const {
+  return impl_->near_;
+}
+
+bool PairDistances::hasUnknown() const {
+  return impl_->has_unknown_;
+}
 
 void PairDistances::forget() {
+  impl_->forget();
+}
+
+void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
+  impl_->take(*before.impl_, pairs_now);
+}
+
+void PairDistances::Impl::forget() {
   if (is_empty_) return;
   for (Pair& pair : pairs_) {
     pair.is_near = false;
@@ -49,7 +127,7 @@ void PairDistances::forget() {
   is_empty_ = true;
 }
 
-void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
+void PairDistances::Impl::take(Impl& before, const std::vector<int>& pairs_now) {
   near_.swap(before.near_);
   const auto isGone = [&](const PairDistance& near) { return pairs_now[near.pair] < 0; };
   near_.erase(std::remove_if(near_.begin(), near_.end(), isGone), near_.end());
@@ -68,8 +146,8 @@ void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_no
   is_empty_ = before.is_empty_;
 }
 
-const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion, const CycleResult& result,
-                                                       double range, const CycleRecord& record) {
+const std::vector<PairDistance>& PairDistances::Impl::update(const CycleMotion& motion, const CycleResult& result,
+                                                             double range, const CycleRecord& record) {
   const double later = std::chrono::duration<double>(record.origin - origin_).count();
   origin_ = record.origin;
   has_unknown_ = is_empty_ = false;
@@ -92,8 +170,8 @@ const std::vector<PairDistance>& PairDistances::update(const CycleMotion& motion
   return near_;
 }
 
-void PairDistances::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range,
-                            const CycleRecord& record) {
+void PairDistances::Impl::measure(std::size_t i, const CycleMotion& motion, const PairResult& result, double range,
+                                  const CycleRecord& record) {
   Pair& pair = pairs_[i];
   pair.is_near = false;
   if (result.verdict == Verdict::kClear && result.clearance > range) return;
@@ -137,8 +215,8 @@ void PairDistances::measure(std::size_t i, const CycleMotion& motion, const Pair
   pair.is_near = true;
 }
 
-bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
-                                PairDistance& found) {
+bool PairDistances::Impl::findNearest(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
+                                      PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &a = scene_->bodies[pair.body_a], &b = scene_->bodies[pair.body_b];
   bool is_within = false;
@@ -165,7 +243,7 @@ bool PairDistances::findNearest(std::size_t i, const Isometry3d& X_WA, const Iso
 }
 
 /// Whether the point of one body that is nearest to the other's surface is certainly inside the other.
-bool PairDistances::isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const {
+bool PairDistances::Impl::isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const {
   const auto contains = [&](int body, const Isometry3d& X_WO, const Vector3d& p_W) {
     const Body& outer = scene_->bodies[body];
     return outer.triangles && !outer.inside_is_doubtful && outer.triangles->isInside(X_WO.inverse() * p_W);
@@ -174,8 +252,9 @@ bool PairDistances::isOneInside(const PairDistance& found, const Isometry3d& X_W
 }
 
 /// The lowest point of a body above a half-space, and its foot on the plane.
-bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const BodyHalfSpace& plane, const Isometry3d& X_WF,
-                                   const Isometry3d& X_WP, double range, PairDistance& found) {
+bool PairDistances::Impl::nearestOfPlane(std::size_t i, bool plane_is_a, const BodyHalfSpace& plane,
+                                         const Isometry3d& X_WF, const Isometry3d& X_WP, double range,
+                                         PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
   const double deviation = deviationOf(*scene_, pair) + plane.deviation;
@@ -198,7 +277,7 @@ bool PairDistances::nearestOfPlane(std::size_t i, bool plane_is_a, const BodyHal
 
 /// Measures two surfaces that may be within the limit, unless they are where they were: most links of a robot at rest.
 /// @return how far B has moved relative to A since the measurement, at most [m].
-double PairDistances::measureSurfaces(std::size_t i, const Isometry3d& X_AB, double limit) {
+double PairDistances::Impl::measureSurfaces(std::size_t i, const Isometry3d& X_AB, double limit) {
   constexpr double kStill = 1e-9;  // [m]
   const Body &body_a = scene_->bodies[scene_->pairs[i].body_a], &body_b = scene_->bodies[scene_->pairs[i].body_b];
   SurfaceMeasurement& last = pairs_[i].surfaces;
@@ -211,8 +290,8 @@ double PairDistances::measureSurfaces(std::size_t i, const Isometry3d& X_AB, dou
   return 0.0;
 }
 
-bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
-                                      PairDistance& found) {
+bool PairDistances::Impl::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
+                                            PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
   const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
@@ -236,7 +315,8 @@ bool PairDistances::nearestOfSurfaces(std::size_t i, const Isometry3d& X_WA, con
 }
 
 /// Motion over the last step. P is the body whose ball contains it: the ball of a half-space does not.
-PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const {
+PairDistances::Impl::Step PairDistances::Impl::stepOf(const CycleMotion& motion, std::size_t last, int body_a,
+                                                      int body_b) const {
   const bool f_is_a = scene_->bodies[body_b].half_spaces.empty();
   const int f = f_is_a ? body_a : body_b, p = f_is_a ? body_b : body_a;
   const auto X_FP = [&](std::size_t k) { return relativePose(motion.pose(f, k), motion.pose(p, k)); };
@@ -244,7 +324,7 @@ PairDistances::Step PairDistances::stepOf(const CycleMotion& motion, std::size_t
 }
 
 /// Upper bound of how far the bodies separate between a time and the end of the span [m].
-double PairDistances::travelSince(double time, const CycleMotion& motion, const PairResult& result) const {
+double PairDistances::Impl::travelSince(double time, const CycleMotion& motion, const PairResult& result) const {
   double travel = 0.0;
   for (std::size_t last = result.span.last; last > result.span.first && motion.times[last] > time; --last) {
     const Step step = stepOf(motion, last, result.body_a, result.body_b);
@@ -254,8 +334,8 @@ double PairDistances::travelSince(double time, const CycleMotion& motion, const 
 }
 
 /// Mean speeds over the last step.
-void PairDistances::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
-                              PairDistance& found) const {
+void PairDistances::Impl::setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
+                                    PairDistance& found) const {
   const double over = motion.times[span.last] - motion.times[span.last - 1];
   const Isometry3d &X_WA_then = motion.pose(found.body_a, span.last - 1),
                    &X_WB_then = motion.pose(found.body_b, span.last - 1),

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "monitor/pair_traits.h"
 #include "scene/pair_rules.h"
+#include "sdf_ccd/monitor/pair_traits.h"
 #include "sdf_ccd/robot/robot_model.h"
 #include "sdf_ccd/scene/scene.h"
 

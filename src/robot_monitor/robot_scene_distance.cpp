@@ -8,9 +8,9 @@
 
 #include "common/infinity.h"
 #include "common/number_text.h"
-#include "monitor/pair_distances.h"
 #include "robot_monitor/robot_scene_impl.h"
 #include "scene/name_pair.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 #include "sdf_ccd/robot/robot_model.h"
 
 namespace sdf_ccd {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "monitor/contact_tracker.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/scene_case.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 namespace sdf_ccd::contact_refinement_test {
 

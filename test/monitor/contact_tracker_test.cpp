@@ -1,4 +1,4 @@
-#include "monitor/contact_tracker.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "monitor/contact_tracker.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 namespace sdf_ccd::crossing_intervals_test {
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "monitor/half_space_case.h"
-#include "monitor/pair_distances.h"
 #include "oracle/random.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 namespace sdf_ccd::half_space_limits_test {
 

@@ -1,9 +1,10 @@
-#include "monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "mesh/corners.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"

@@ -7,10 +7,10 @@
 #include <tbb/task_arena.h>
 
 #include "common/processor_time.h"
-#include "monitor/contact_tracker.h"
 #include "oracle/busy_machine.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 namespace sdf_ccd::time_limit_test {
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "monitor/contact_tracker.h"
 #include "monitor/summarise.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 namespace sdf_ccd::test {
 

@@ -1,10 +1,11 @@
-#include "monitor/velocity_scale.h"
+#include "sdf_ccd/monitor/velocity_scale.h"
 
 #include <gtest/gtest.h>
 
 #include <deque>
 #include <memory>
 
+#include "mesh/corners.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"

@@ -11,10 +11,10 @@
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
 
-#include "monitor/contact_tracker.h"
 #include "sdf_ccd/Contact.h"
 #include "sdf_ccd/ErrorBound.h"
 #include "sdf_ccd/PairContact.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 #include "sdf_ccd/monitor/monitor.h"
 
 namespace sdf_ccd {

@@ -6,12 +6,12 @@
 
 #include <ros/time.h>
 
-#include "monitor/contact_tracker.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 
 namespace sdf_ccd {
 
-/// Lines for the log about contacts that certainly begin and end, for those who look at nothing else. At most kPerSecond
-/// a second; the next line says how many were left out.
+/// Lines for the log about contacts that certainly begin and end, for those who look at nothing else. At most
+/// kPerSecond a second; the next line says how many were left out.
 class ContactLog {
  public:
   static constexpr int kPerSecond = 5;

@@ -2,14 +2,14 @@
 
 #include <memory>
 
-#include "monitor/contact_tracker.h"
-#include "monitor/pair_distances.h"
 #include "robot_monitor/robot_pair_traits.h"
 #include "ros/monitor/rigid_guard.h"
 #include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 namespace sdf_ccd {
 

@@ -8,10 +8,8 @@
 #include <ros/node_handle.h>
 
 #include "common/settings/setting.h"
-#include "monitor/contact_tracker.h"
 #include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
-#include "monitor/velocity_scale.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "robot_monitor/robot_pair_traits.h"
 #include "ros/messages/markers.h"
@@ -20,7 +18,9 @@
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "scene/pair_rules.h"
+#include "sdf_ccd/monitor/contact_tracker.h"
 #include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor/velocity_scale.h"
 #include "sdf_ccd/robot/describe_robot.h"
 
 namespace sdf_ccd {

@@ -15,6 +15,7 @@ namespace sdf_ccd {
 /// One contact of a pair of bodies, over however many cycles. Times are since the clock's epoch. For tiles of a map
 /// that changes (see VoxelMap) the other body is the map.
 struct TrackedContact {
+  /// Since the clock's epoch.
   using Time = std::chrono::nanoseconds;
 
   std::uint64_t id = 0;  ///< from 1, in the order in which contacts begin; never reused
@@ -58,7 +59,8 @@ struct ContactJoin {
 ///
 /// A contact lasts while the pair's distance is at or below zero. It continues across the breaks that ContactJoin names
 /// and across the ends of cycles, also across delayed cycles and changes of the world, because pairs are identified by
-/// their bodies' names. It ends when the pair has been checked for longer than a break without touching. If the pair is not checked for some time, or no longer, it ends as lost.
+/// their bodies' names. It ends when the pair has been checked for longer than a break without touching. If the pair is
+/// not checked for some time, or no longer, it ends as lost.
 ///
 /// A body and all tiles of a map count as one pair: sliding from one tile to another, or touching a tile that is
 /// replaced, is one contact. It continues as long as one of the tiles is touched.
@@ -71,8 +73,10 @@ struct ContactJoin {
 /// allocated only if a pair touches for the first time, or more pairs touch at a time than ever before.
 class ContactTracker {
  public:
+  /// The break that never ends a contact.
   static constexpr std::chrono::nanoseconds kJoin = ContactJoin().time;
 
+  /// Of a scene's pairs; no contact yet.
   explicit ContactTracker(const Scene& scene, const ContactJoin& join = {}) : join_(join) { adopt(scene); }
 
   /// Groups of pairs that are tracked as one.
@@ -89,13 +93,16 @@ class ContactTracker {
     std::vector<int> last, listed;
     std::vector<int> groups_now;  ///< per present group: its index in the next world; -1 if it has none
   };
+  /// Makes it, from any thread, but not during adopt().
   Change prepare(const Scene& next) const;
 
   /// Switches to another world between two cycles. Contacts of pairs that it has too continue; others end as lost, and
   /// are listed with the next cycle. The cost grows with the contacts; no memory is freed or allocated.
-  /// @param change  from prepare(), called since the last adopt(); receives the data of the previous world.
+  /// `change` is from prepare(), called since the last adopt(), and receives the data of the previous world.
+  ///@{
   void adopt(Change& change);
   void adopt(const Scene& scene);
+  ///@}
 
   /// Processes the next cycle of the adopted scene; all contacts must be computed (CycleRequest::contacts).
   void update(const ObservedCycle& cycle);
@@ -108,8 +115,10 @@ class ContactTracker {
   void endAllAsLost();
 
   /// The contacts of the last cycle, including those that ended in it. Valid until the next call.
+  ///@{
   std::size_t size() const { return listed_.size(); }
   const TrackedContact& operator[](std::size_t i) const { return slots_[static_cast<std::size_t>(listed_[i])].contact; }
+  ///@}
 
   /// Number of contacts that have not ended.
   std::size_t open() const { return open_; }
@@ -119,8 +128,8 @@ class ContactTracker {
 
   struct Slot {
     TrackedContact contact;
-    int group = -1;        // group of pairs; −1: free
-    bool is_open = false;  // it has not ended
+    int group = -1;          // group of pairs; −1: free
+    bool is_open = false;    // it has not ended
     bool was_apart = false;  // the bodies were farther apart than ContactJoin::distance after it
     bool is_listed = false;
     bool is_unreported = false;  // it ended with its world, after the last cycle

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "monitor/pair_distances.h"
-#include "monitor/pair_traits.h"
+#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_traits.h"
 
 namespace sdf_ccd {
 

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "sdf_ccd/monitor/monitor.h"
-#include "surface/separation.h"
-#include "surface/surface_distance.h"
 
 namespace sdf_ccd {
 
@@ -50,7 +48,9 @@ struct PairDistance {
 /// microseconds. Memory is allocated only if more pairs are near each other than ever before.
 class PairDistances {
  public:
+  /// Of a scene about which nothing is measured yet.
   explicit PairDistances(std::shared_ptr<const Scene> scene);
+  ~PairDistances();
 
   /// Processes a cycle of the scene. @param range  pairs that are certainly farther apart are not listed [m].
   /// @param result  must hold the clearances of all pairs (CycleRequest::skipped_pairs).
@@ -59,11 +59,11 @@ class PairDistances {
                                           const CycleRecord& record);
 
   /// In the order of Scene::pairs. Pairs that are not checked are not listed; delayed pairs keep their last entry.
-  const std::vector<PairDistance>& near() const { return near_; }
+  const std::vector<PairDistance>& near() const;
 
   /// Whether a pair is delayed that was not known to be beyond the range before: it is not listed, and its distance is
   /// unknown.
-  bool hasUnknown() const { return has_unknown_; }
+  bool hasUnknown() const;
 
   /// Discards all measurements, as when cycles were left out. Costs nothing if there are none.
   void forget();
@@ -74,52 +74,8 @@ class PairDistances {
   void take(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
-  static constexpr double kNotMeasured = -1.0;  // below any range
-
-  /// The last measurement of two surfaces of triangles, for bodies that do not move relative to each other.
-  struct SurfaceMeasurement {
-    Isometry3d X_AB = Isometry3d::Identity();
-    double limit = kNotMeasured;             // farther surfaces were not measured [m]
-    std::optional<SurfaceDistance> nearest;  // none: farther than the limit
-    std::optional<double> slab;
-  };
-
-  struct Pair {
-    double known_within = kNotMeasured;  // range of the last measurement [m]; kNotMeasured: not measured
-    SeparationWitness witness;
-    SurfaceMeasurement surfaces;
-    PairDistance last;  // valid if is_near
-    bool is_near = false;
-  };
-
-  void measure(std::size_t pair, const CycleMotion& motion, const PairResult& result, double range,
-               const CycleRecord& record);
-  bool findNearest(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range, PairDistance& found);
-  bool nearestOfSurfaces(std::size_t pair, const Isometry3d& X_WA, const Isometry3d& X_WB, double range,
-                         PairDistance& found);
-  double measureSurfaces(std::size_t pair, const Isometry3d& X_AB, double limit);
-  bool isOneInside(const PairDistance& found, const Isometry3d& X_WA, const Isometry3d& X_WB) const;
-  bool nearestOfPlane(std::size_t pair, bool plane_is_a, const BodyHalfSpace& plane, const Isometry3d& X_WF,
-                      const Isometry3d& X_WP, double range, PairDistance& found);
-
-  /// Motion of P relative to F from the waypoint before `last` to `last`.
-  struct Step {
-    bool f_is_a;
-    Isometry3d X_then, X_now;
-    const BoundingBall& ball;  // of P
-  };
-  Step stepOf(const CycleMotion& motion, std::size_t last, int body_a, int body_b) const;
-  double travelSince(double time, const CycleMotion& motion, const PairResult& result) const;
-  void setSpeeds(const CycleMotion& motion, const WaypointSpan& span, const CycleRecord& record,
-                 PairDistance& found) const;
-
-  std::shared_ptr<const Scene> scene_;
-  std::vector<Pair> pairs_;
-  std::vector<PairDistance> near_;
-  std::chrono::nanoseconds origin_{0};  // of the last cycle
-  bool has_unknown_ = false;
-  bool is_empty_ = true;  // nothing is stored
-  SeparationMemory memory_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sdf_ccd

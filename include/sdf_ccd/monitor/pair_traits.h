@@ -1,20 +1,21 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "common/infinity.h"
-#include "monitor/pair_distances.h"
+#include "sdf_ccd/monitor/pair_distances.h"
 
 namespace sdf_ccd {
 
 /// What a pair of a scene can do, and how near it may come. The default is the one that limits most.
 struct PairTraits {
-  bool is_own = false;                       ///< both bodies are links of the robot, or what these hold
-  bool is_constant = false;                  ///< their distance cannot change, whatever the joints do
-  double max_closing = kInfinity;            ///< speed at which it can close with all joints at their limits [m/s]
-  std::optional<double> stop_distance = {};  ///< [m]; none: that of all pairs
+  bool is_own = false;       ///< both bodies are links of the robot, or what these hold
+  bool is_constant = false;  ///< their distance cannot change, whatever the joints do
+  double max_closing =
+      std::numeric_limits<double>::infinity();  ///< speed at which it can close with all joints at their limits [m/s]
+  std::optional<double> stop_distance = {};     ///< [m]; none: that of all pairs
 };
 
 /// @param traits  per pair of the scene; empty: the default for all.
