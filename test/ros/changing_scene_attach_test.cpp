@@ -177,6 +177,9 @@ TEST_F(ChangingSceneAttachTest, AttachesWhatIsNotThereYet) {
   EXPECT_EQ(body("box").X_frame_B.translation(), Vector3d(3, 0, 0));
   attach.link_name = "nowhere";
   EXPECT_EQ(refusal(attach), "the robot has no link nowhere");
+  SceneChange nothing = change(SceneChange::ATTACH, "other");
+  nothing.link_name = "tip";
+  EXPECT_EQ(refusal(nothing), "object other has no shape");
 }
 
 }  // namespace sdf_ccd::changing_scene_attach_test

@@ -159,10 +159,10 @@ std::string ChangingScene::frameOf(const SceneChange& change, const std::string&
   return frame.empty() ? fallback : frame;
 }
 
+/// The object without its pose.
 BodyDescription ChangingScene::make(const SceneChange& change, ChangeSources& sources) const {
   const std::string frame = frameOf(change, start_up_->fixed_frame);
-  const Isometry3d X_frame_B = poseIn(change.pose, "the pose");
-  WorldObject object{change.id, frame, X_frame_B, shapesIn(change, sources.limits, sources.triangles)};
+  WorldObject object{change.id, frame, Isometry3d::Identity(), shapesIn(change, sources.limits, sources.triangles)};
   const bool is_map = !change.octomap_file.empty();
   if (is_map && !object.shapes.empty())
     refuse("an object with octomap_file cannot have other shapes: add those as another object");
@@ -186,7 +186,9 @@ void ChangingScene::requireUsableName(const std::string& name) const {
 
 void ChangingScene::add(const SceneChange& change, ChangeSources& sources) {
   requireUsableName(change.id);
-  set(make(change, sources));
+  BodyDescription body = make(change, sources);
+  body.X_frame_B = poseIn(change.pose, "the pose");
+  set(std::move(body));
 }
 
 void ChangingScene::move(const SceneChange& change) {
@@ -217,9 +219,7 @@ void ChangingScene::append(const SceneChange& change, ChangeSources& sources) {
                                      [](const GeometryDescription& part) { return part.watertight_voxels; });
   if (holds_map || !change.octomap_file.empty())
     refuse("an OctoMap is the only shape of its object: add others as another object");
-  SceneChange added = change;
-  added.pose.orientation.w = 1.0;  // not used
-  std::vector<GeometryDescription> parts = make(added, sources).geometry;
+  std::vector<GeometryDescription> parts = make(change, sources).geometry;
   if (object.body.geometry.size() + parts.size() > sources.limits.shapes)
     refuse(change.id + " would have more than " + std::to_string(sources.limits.shapes) + " shapes");
   std::move(parts.begin(), parts.end(), std::back_inserter(object.body.geometry));
