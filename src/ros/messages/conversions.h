@@ -48,12 +48,12 @@ struct CycleContext {
 /// Whether the pair touches at one of the recorded times.
 bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle);
 
-/// The bound of a verdict, which has no other sources: surfaces decide.
 /// The number of a verdict in messages; see Verdict.msg.
 constexpr std::uint8_t numberOf(Verdict verdict) {
   return static_cast<std::uint8_t>(verdict);
 }
 
+/// The bound of a verdict, which has no other sources: surfaces decide.
 ErrorBound toErrorBound(const ErrorSources& error);
 
 /// Sets all fields of the message, whose memory is reused; so do all functions named set….
