@@ -307,14 +307,12 @@ TEST(Parameters, AMisspeltParameterOfAGroupIsRefused) {
 }
 
 TEST(Parameters, WhatIsGoneIsNamedWithWhatToDoInstead) {
-  const MonitorParameters parameters =
-      parse("allow_http: false\nfield: {sample_bits: 32, cells: 50}\nrate: 20\nrat: 3");
+  const MonitorParameters parameters = parse("allow_http: false\nfield: {sample_bits: 32, cells: 50}\nrat: 3");
   const std::vector<std::string> expected = {
       "~/allow_http, which is gone: nothing is read over the network: put meshes into files or packages",
       "~/field/sample_bits, which is gone: samples have 16 bits", "~/rat, did you mean rate?"};
   EXPECT_EQ(parameters.unused, expected);
   EXPECT_EQ(parameters.scene.field.cells, 50);
-  EXPECT_EQ(parameters.rate, 20.0);
 }
 
 }  // namespace sdf_ccd::parameters_test
