@@ -15,11 +15,11 @@
 #include <tbb/global_control.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "ros/messages/conversions.h"
 #include "ros/tf_messages.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/MonitorState.h"
+#include "sdf_ccd/Verdict.h"
 #include "thread_allocations.h"
 
 namespace sdf_ccd::cycle_allocation_test {
@@ -43,7 +43,7 @@ class CycleAllocationTest : public ::testing::Test {
  protected:
   CycleAllocationTest() {
     subscribe<ContactArray>("contacts", [this](const ContactArray& contacts) {
-      contacts_ += contacts.verdict == numberOf(Verdict::kContact) && !contacts.pairs.empty();
+      contacts_ += contacts.verdict == Verdict::CONTACT && !contacts.pairs.empty();
     });
     subscribe<MonitorState>("state", [](const MonitorState&) {});
     subscribe<DistanceArray>("distances", [](const DistanceArray&) {});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ros/messages/conversions.h"
+#include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
 #include "sdf_ccd/GetPlan.h"
 #include "sdf_ccd/MonitorState.h"

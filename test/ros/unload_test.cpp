@@ -164,11 +164,11 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
     ASSERT_TRUE(loader_.load(name, "sdf_ccd/CollisionMonitor", {}, {}));
     std::unique_lock<std::mutex> lock(mutex_);
     const auto has_all = [&] {
-      const std::vector<std::string>& reasons = plans[name].part_reasons;
-      const bool awaits_forces = std::any_of(reasons.begin(), reasons.end(), [](const std::string& reason) {
-        return reason.find("being built") != std::string::npos;
+      const std::vector<PlanBody>& bodies = plans[name].bodies;
+      const bool awaits_forces = std::any_of(bodies.begin(), bodies.end(), [](const PlanBody& body) {
+        return (body.no_field + body.no_shell).find("being built") != std::string::npos;
       });
-      return !plans[name].names.empty() && !awaits_forces && frames.count(name) > 0;
+      return !bodies.empty() && !awaits_forces && frames.count(name) > 0;
     };
     ASSERT_TRUE(changed_.wait_for(lock, std::chrono::seconds(60), has_all));
     lock.unlock();
@@ -178,8 +178,9 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
   EXPECT_EQ(frames["/left/monitor"], "left/base");
   EXPECT_EQ(frames["/right/monitor"], "right/base");
   const auto count = [&](const std::string& name, const std::string& field) {
-    return std::count_if(plans[name].fields.begin(), plans[name].fields.end(),
-                         [&](const std::string& of) { return of.find(field) != std::string::npos; });
+    const std::vector<PlanBody>& bodies = plans[name].bodies;
+    return std::count_if(bodies.begin(), bodies.end(),
+                         [&](const PlanBody& body) { return body.field.find(field) != std::string::npos; });
   };
   EXPECT_GT(count("/left/monitor", "built"), 0);
   EXPECT_EQ(count("/right/monitor", "built"), 0) << "nothing is made twice";
