@@ -73,7 +73,7 @@ TEST(RobotScene, BadObjectsAreRefusedAndNothingChanges) {
   WorldObject flat = kPost;
   flat.X_frame_B.linear().setZero();
   expectRefused(flat, "orthonormal");
-  expectRefused(ball("post", Vector3d::Zero(), -0.1), "-0.1");
+  expectRefused(ball("post", Vector3d::Zero(), -0.1), "-0.2");
   expectRefused({"post", {}, Isometry3d::Identity(), {{MeshObject{"none.stl", Vector3d::Ones()}}}}, "none.stl");
   EXPECT_THROW(scene.moveObject("tool", Isometry3d::Identity()), std::invalid_argument);
   EXPECT_THROW(scene.removeObject("tool"), std::invalid_argument);
