@@ -87,7 +87,7 @@ class ForcesTest(MasterCase):
         self.assertTrue(checked)
         self.assertFalse([m.reason for m in checked[1:] if m.verdict != Verdict.CONTACT][:3])
         first = plans.messages[0]
-        self.assertIn('its field and shell are being built', first.part_reasons)
+        self.assertIn('its field and shell are being built', [body.no_field for body in first.bodies])
         built = plans.find(lambda m: 'its field and shell are being built' not in str(m.bodies))
         ball, = [body for body in built.bodies if body.name == 'ball']
         self.assertGreater(ball.shell_points, 1000)
@@ -107,7 +107,7 @@ class ForcesTest(MasterCase):
         plans = self.begin('none', 'never')
         reason = 'its field and shell are not wanted (parameter wrenches)'
         self.assertEqual(self.contact(contacts, known=False).reason, 'no force: ball: ' + reason)
-        self.assertIn(reason, plans.find(lambda m: True).part_reasons)
+        self.assertIn(reason, [body.no_shell for body in plans.find(lambda m: True).bodies])
         query = wait_for_service('/none/query_motion', QueryMotion)
         answer = query(trajectory('slide', [-0.5, 0.0]))
         self.assertTrue(answer.success and answer.verdict == Verdict.CONTACT, answer)

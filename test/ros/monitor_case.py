@@ -86,7 +86,7 @@ def pair_of(message, a, b):
 
 def touches(message, a, b):
     pair = pair_of(message, a, b)
-    return pair is not None and pair.verdict == pair.CONTACT
+    return pair is not None and pair.verdict == Verdict.CONTACT
 
 
 def transform(stamp, frame, x, y=0.0, parent='base'):

@@ -21,7 +21,7 @@ from std_msgs.msg import Header
 
 from monitor_case import Recorder, wait_for_service
 from own_master import PATIENCE, MasterCase
-from sdf_ccd.msg import ContactArray, MonitorState, SceneChange
+from sdf_ccd.msg import ContactArray, MonitorState, SceneChange, Verdict
 from sdf_ccd.srv import GetPlan, UpdateScene
 from voxel_maps import SIZE, Octomap, message
 
@@ -211,8 +211,8 @@ class Pr2LiveMapTest(MasterCase):
         # Every reported contact is an overlap, at that location.
         caught = [0, 0]
         for since, until, pair in said:
-            if pair.verdict != pair.CONTACT:
-                self.assertEqual(pair.verdict, pair.UNCERTAIN, pair.reason)
+            if pair.verdict != Verdict.CONTACT:
+                self.assertEqual(pair.verdict, Verdict.UNCERTAIN, pair.reason)
                 continue
             which = int((since + until) / 2 >= switch)
             steps = 1 + int((until - since) / STEP)

@@ -10,6 +10,8 @@ from std_msgs.msg import Header
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)) + '/../../scripts')
 from octomap_message import Octomap, binary_data, octomap, octree  # noqa: E402, F401
 
+from sdf_ccd.msg import Verdict  # noqa: E402
+
 SIZE = 0.05  # of a voxel [m]
 
 
@@ -41,5 +43,5 @@ def message(voxels, is_binary=True):
 
 def touches_map(m):
     """Whether the ball touches the map in a message."""
-    return any(p.verdict == p.CONTACT and 'ball' in (p.body_a, p.body_b) and
+    return any(p.verdict == Verdict.CONTACT and 'ball' in (p.body_a, p.body_b) and
                any(b.startswith('octomap/') for b in (p.body_a, p.body_b)) for p in m.pairs)
