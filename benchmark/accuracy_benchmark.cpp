@@ -7,8 +7,8 @@
 #include "oracle/random.h"
 #include "precision/error_summary.h"
 #include "results.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -14,7 +14,7 @@
 #include "monitor/recorded_poses.h"
 #endif
 #include "results.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -14,7 +14,7 @@
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
 #include "query/least_distance.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 #include "study_fields.h"
 
 namespace sdf_ccd::benchmark {

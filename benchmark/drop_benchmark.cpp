@@ -6,8 +6,7 @@
 
 #include "mesh/generated_mesh.h"
 #include "results.h"
-#include "sdf_ccd/dynamics/rigid_world.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 #include "shell/sample_surface.h"
 #include "study.h"
 

@@ -6,8 +6,8 @@
 
 #include <embree3/rtcore.h>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::benchmark {
 

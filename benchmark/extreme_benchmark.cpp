@@ -13,7 +13,7 @@
 #include "mesh/generated_mesh.h"
 #include "oracle/bodies.h"
 #include "results.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

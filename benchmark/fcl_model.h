@@ -5,7 +5,7 @@
 
 #include <fcl/geometry/bvh/BVH_model.h>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::benchmark {
 

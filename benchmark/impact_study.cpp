@@ -11,7 +11,7 @@
 #include "impact_systems.h"
 #include "motion/screw_motion.h"
 #include "precision/random_inputs.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "precision/measurement.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::benchmark {
 

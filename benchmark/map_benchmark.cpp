@@ -19,7 +19,7 @@
 #include "monitor/sdf_ccd_monitor.h"
 #include "motion/screw_motion.h"
 #include "results.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -6,9 +6,8 @@
 
 #include "embree_scene.h"
 #include "results.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 #include "segment_cases.h"
 #include "solid/closed_solid.h"
 #include "study.h"

@@ -15,7 +15,7 @@
 #include "monitor/monitor_system.h"
 #include "monitor/sdf_ccd_monitor.h"
 #include "results.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 #include "study.h"
 #ifdef SDF_CCD_WITH_ROS
 #include "monitor/tf_cycles.h"

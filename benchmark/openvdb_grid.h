@@ -5,7 +5,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/MeshToVolume.h>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::benchmark {
 

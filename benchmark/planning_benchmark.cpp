@@ -12,8 +12,8 @@
 #include "monitor/monitor_system.h"
 #include "precision/error_summary.h"
 #include "results.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/check_motion.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -6,7 +6,7 @@
 
 #include "robot/joint_kind.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

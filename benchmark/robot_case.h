@@ -4,10 +4,9 @@
 #include <string>
 
 #include "oracle/random.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/scene/prepare_body.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -14,8 +14,8 @@
 #include "results.h"
 #include "robot_case.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -6,7 +6,7 @@
 
 #include "mesh/triangle_tree.h"
 #include "oracle/random.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::benchmark {
 

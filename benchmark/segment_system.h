@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "query/shell_query.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::benchmark {
 

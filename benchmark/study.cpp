@@ -8,8 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::benchmark {
 

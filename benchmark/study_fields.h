@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include <sdf_ccd/dynamics/simulation.h>
+#include <sdf_ccd/simulation.h>
 
 int main() {
   using namespace sdf_ccd;

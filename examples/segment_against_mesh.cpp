@@ -2,11 +2,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include <sdf_ccd/field/build_field.h>
-#include <sdf_ccd/mesh/mesh_file.h>
-#include <sdf_ccd/mesh/mesh_quality.h>
-#include <sdf_ccd/mesh/primitive.h>
-#include <sdf_ccd/query/segment_query.h>
+#include <sdf_ccd/field.h>
+#include <sdf_ccd/mesh.h>
+#include <sdf_ccd/primitive.h>
+#include <sdf_ccd/segments.h>
 
 int main(int argc, char** argv) {
   using namespace sdf_ccd;

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "oracle/file_versions.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "valid_file.h"
 
 namespace sdf_ccd::fuzz {

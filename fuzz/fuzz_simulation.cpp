@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "fuzz_input.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 
 namespace {
 

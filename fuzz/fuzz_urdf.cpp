@@ -1,6 +1,6 @@
 // Fuzzes a URDF, then computes the robot's forward kinematics and reaches.
 #include "fuzz_input.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

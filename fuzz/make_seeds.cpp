@@ -15,9 +15,8 @@
 #include "oracle/mesh_bytes.h"
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/shell.h"
 #include "shell/sample_surface.h"
 #include "valid_file.h"
 

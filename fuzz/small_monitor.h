@@ -9,7 +9,7 @@
 #include "ros/monitor/queries.h"
 #include "ros/tf_messages.h"
 #include "ros/world/changing_scene.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::fuzz {
 

@@ -10,7 +10,7 @@
 
 #include "common/time_limit.h"
 #include "oracle/busy_machine.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd::test {
 
@@ -41,8 +41,8 @@ inline double secondsToEnd(const std::function<void()>& work, double cancelled_a
   return std::chrono::duration<double>(end - start).count();
 }
 
-/// Cancels work at moments all through it, or through its first seconds. Where that takes too long it is tried again, as a virtual machine may stand
-/// still for as long; a stretch without a check takes too long every time.
+/// Cancels work at moments all through it, or through its first seconds. Where that takes too long it is tried again,
+/// as a virtual machine may stand still for as long; a stretch without a check takes too long every time.
 /// @param soon  how long it may go on then [s]; no longer than half of it all, where that is quick.
 inline void expectEndsSoon(const std::function<void()>& work, int moments, double soon) {
   constexpr int kTries = 4;

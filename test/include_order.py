@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Each folder of src and include/sdf_ccd includes only those before it in README's table of folders; so do the tests of
-each folder. Other folders of test (oracle, adversarial, ...) serve several and are not checked.
+"""Each folder of src includes only those before it in README's table of folders; so do the public headers, and the tests
+of each folder. Other folders of test (oracle, adversarial, ...) serve several and are not checked.
 
 usage: include_order.py SOURCE_DIRECTORY
 """
@@ -8,6 +8,12 @@ import os
 import re
 import sys
 
+# The folder from which on each public header may be included.
+HEADERS = {'types': 'common', 'cancel': 'common', 'mesh': 'mesh', 'primitive': 'mesh', 'field': 'field',
+           'shell': 'shell', 'motion': 'motion', 'segments': 'query', 'result': 'query', 'contact': 'contact',
+           'body': 'scene', 'robot': 'robot', 'trajectory': 'robot', 'scene': 'scene', 'monitor': 'monitor',
+           'distances': 'monitor', 'contacts': 'monitor', 'velocity_scale': 'monitor',
+           'check_motion': 'robot_monitor', 'robot_scene': 'robot_monitor', 'simulation': 'dynamics'}
 ROS = ['tf', 'messages', 'parameters', 'world', 'monitor', 'bag']  # the folders of src/ros
 
 
@@ -19,7 +25,7 @@ def ordered_folders(root):
 
 
 def includes(root):
-    """(file, its folder, the folder that it includes) of all quoted includes that name a folder."""
+    """(file, its folder, the folder that it includes) of all quoted includes that name a folder or a public header."""
     for top in ('src', 'include/sdf_ccd', 'test'):
         for directory, _, files in os.walk(os.path.join(root, top)):
             path = os.path.relpath(directory, os.path.join(root, top)).split(os.sep)
@@ -28,8 +34,10 @@ def includes(root):
                     continue
                 file = os.path.join(directory, name)
                 with open(file, encoding='utf-8') as source:
-                    for included in re.findall(r'#include "(?:sdf_ccd/)?([\w/]+)/[\w.-]+\.h"', source.read()):
-                        yield os.path.relpath(file, root), path, included.split('/')
+                    own = [HEADERS.get(name[:-2], '')] if top.startswith('include') else path
+                    for included, header in re.findall(r'#include "([\w/]+)/([\w-]+)\.h"', source.read()):
+                        folder = [HEADERS.get(header, '')] if included == 'sdf_ccd' else included.split('/')
+                        yield os.path.relpath(file, root), own, folder
 
 
 def looks_back(order, file, path, included):

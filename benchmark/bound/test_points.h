@@ -4,8 +4,8 @@
 
 #include "precision/exact_surface.h"
 #include "precision/random_inputs.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 
 /// Test points and segments in the regions where fields are hardest to get right.
 namespace sdf_ccd::benchmark {

@@ -6,7 +6,7 @@
 #include <fcl/narrowphase/collision.h>
 
 #include "motion/screw_motion.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

@@ -7,7 +7,7 @@
 #include "fcl_model.h"
 #include "precision/exact_surface.h"
 #include "precision/random_inputs.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 /// Verdicts of a monitor for two moving bodies, compared with their exact meshes.
 namespace sdf_ccd::benchmark {

@@ -6,8 +6,8 @@
 
 #include "monitor/fcl_scene.h"
 #include "oracle/random.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fcl/narrowphase/collision_object.h>
 
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/scene/scene.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "monitor/monitor_system.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::benchmark {
 

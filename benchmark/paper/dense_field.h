@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::benchmark {
 

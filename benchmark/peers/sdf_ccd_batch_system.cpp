@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 #include "segment_system.h"
 

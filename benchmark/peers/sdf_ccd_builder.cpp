@@ -1,6 +1,6 @@
 #include "build_systems.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::benchmark {
 namespace {

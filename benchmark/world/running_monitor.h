@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -7,15 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/contact/contact_model.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/query/segment_query.h"
-#include "sdf_ccd/query/verdict.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/robot/planned_motion.h"
-#include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/robot/world_object.h"
+#include "sdf_ccd/contact.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/result.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/segments.h"
+#include "sdf_ccd/trajectory.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Boxes of points of the integer lattice, in the order x fastest, then y, then z.
 namespace sdf_ccd {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Numbers as text, for messages and tables.
 namespace sdf_ccd {

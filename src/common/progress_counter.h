@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

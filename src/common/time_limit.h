@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "motion/chords.h"
-#include "sdf_ccd/shell/packed_normal.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "chord_frame.h"
-#include "sdf_ccd/contact/contact_model.h"
+#include "sdf_ccd/contact.h"
 
 namespace sdf_ccd {
 

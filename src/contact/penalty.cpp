@@ -13,8 +13,8 @@
 #include "common/number_text.h"
 #include "deepest.h"
 #include "field/cell_reader.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/segments.h"
 #include "smooth_piece.h"
 
 namespace sdf_ccd {

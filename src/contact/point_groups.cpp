@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {
 
-constexpr std::size_t kFewPoints = 256;      // of a shell: not worth grouping
-constexpr float kShareOfDepth = 0.25F;       // a group's radius over its depth
-constexpr float kShareOfShell = 0.125F;      // over the shell's
-constexpr std::int32_t kFewInNode = 4;       // points cost no more than their group
-constexpr int kMostOpened = 256;             // nodes, in the search for the deepest point
-constexpr double kSameDepth = 1e-6;          // relative difference that is not looked for
+constexpr std::size_t kFewPoints = 256;  // of a shell: not worth grouping
+constexpr float kShareOfDepth = 0.25F;   // a group's radius over its depth
+constexpr float kShareOfShell = 0.125F;  // over the shell's
+constexpr std::int32_t kFewInNode = 4;   // points cost no more than their group
+constexpr int kMostOpened = 256;         // nodes, in the search for the deepest point
+constexpr double kSameDepth = 1e-6;      // relative difference that is not looked for
 
 /// The path of a point along a chord, frame F.
 struct PointPath {
@@ -31,8 +31,9 @@ std::pair<double, Vector3d> reachAlong(const DistanceField& field, const PointPa
                at_end = -field.lowerBound(path.end);
   const double reach = 0.5 * (at_middle + std::max(at_start, at_end) + path.half());
   const bool is_middle = at_middle >= std::max(at_start, at_end);
-  return {std::max({reach, at_start, at_middle, at_end}),
-          is_middle ? path.middle : at_start > at_end ? path.start : path.end};
+  return {std::max({reach, at_start, at_middle, at_end}), is_middle           ? path.middle
+                                                          : at_start > at_end ? path.start
+                                                                              : path.end};
 }
 
 /// The same for all points of a node: they stay as near to its centre as its radius.
@@ -93,7 +94,8 @@ void PointGroups::divide(const DistanceField& field, const GroupedShell& shell, 
     const NodeSum& sum = shell.sums[static_cast<std::size_t>(i)];
     const float normal = sum.normal.norm();
     // Where the field has no direction, the points' normals have: their sum counts.
-    const Vector3d middle = PointPath(path.chords[static_cast<std::size_t>(chord)], nodes[i].center.cast<double>()).middle;
+    const Vector3d middle =
+        PointPath(path.chords[static_cast<std::size_t>(chord)], nodes[i].center.cast<double>()).middle;
     const bool has_direction = field.primitive() || field.interpolate(middle).gradient.squaredNorm() > 0.0;
     hits_.push_back({static_cast<int>(centroids_.offsets.size()), chord, {0.0, 1.0}});
     centroids_.offsets.push_back(sum.centroid);
@@ -152,9 +154,7 @@ void PointGroups::findDeep(const DistanceField& field, const GroupedShell& shell
     return PointPath(chord, shell.shell.point(static_cast<std::size_t>(i)));
   };
   const auto isLess = [](const Open& a, const Open& b) { return a.reach < b.reach; };
-  const auto isDone = [&](double reach) {
-    return reach <= best + std::max(field.errorBound(), kSameDepth * best);
-  };
+  const auto isDone = [&](double reach) { return reach <= best + std::max(field.errorBound(), kSameDepth * best); };
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     cancel.check();
     Group& group = groups_[g];

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "scene/build_body.h"
-#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/simulation.h"
 
 #include <cmath>
 

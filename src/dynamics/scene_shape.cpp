@@ -4,8 +4,7 @@
 
 #include "dynamics/scene_settings.h"
 #include "mesh/generated_mesh.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 namespace {

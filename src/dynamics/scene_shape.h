@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "common/settings/settings_reader.h"
-#include "sdf_ccd/dynamics/rigid_world.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {
 

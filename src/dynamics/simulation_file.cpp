@@ -1,4 +1,4 @@
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 
 #include <filesystem>
 #include <map>

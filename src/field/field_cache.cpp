@@ -8,7 +8,7 @@
 #include "field/opening_caps.h"
 #include "field/source_field.h"
 #include "mesh/content_hash.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/files/file_cache.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

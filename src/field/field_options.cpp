@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Checks that the numbers of a grid's shape, which may come from a file, are plausible.
 namespace sdf_ccd {

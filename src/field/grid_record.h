@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 /// DistanceField's queries of each kind of grid, at points within its box.
 namespace sdf_ccd {

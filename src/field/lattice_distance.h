@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/lattice.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

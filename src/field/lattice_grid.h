@@ -5,7 +5,7 @@
 
 #include "field/lattice_distance.h"
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/files/checked_file.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

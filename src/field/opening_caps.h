@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "mesh/triangle_tree.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

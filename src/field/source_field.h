@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "common/compiler_lanes.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -5,9 +5,8 @@
 #include <optional>
 
 #include "mesh/voxel_solid.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

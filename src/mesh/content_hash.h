@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

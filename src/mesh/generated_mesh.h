@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Closed meshes made from numbers, for scenes and studies that need shapes beyond the primitives. Sizes are metres;
 /// all throw std::invalid_argument for sizes that are not finite and positive, or counts that give no solid.

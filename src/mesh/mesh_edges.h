@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <vector>
 
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

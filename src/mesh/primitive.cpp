@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 
 #include <cmath>
 

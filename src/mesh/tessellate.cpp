@@ -8,7 +8,7 @@
 #include "common/number_text.h"
 #include "common/pi.h"
 #include "common/refuse.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -8,7 +8,7 @@
 #include "common/number_text.h"
 #include "mesh/box_measures.h"
 #include "mesh/point_numbers.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

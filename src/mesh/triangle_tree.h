@@ -8,7 +8,7 @@
 #include "mesh/corners.h"
 #include "mesh/flat_cylinder.h"
 #include "mesh/triangle.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

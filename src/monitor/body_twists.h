@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/compiler_lanes.h"
-#include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/motion.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

@@ -11,8 +11,8 @@
 #include "scene/name_pair.h"
 #include "scene/plan/scene_totals.h"
 #include "scene/plan/surface_needs.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/scene.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 #include "common/parallel_for.h"
 #include "common/processor_time.h"
 #include "monitor_impl.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

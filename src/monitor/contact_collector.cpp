@@ -7,7 +7,7 @@
 #include "field/opening_caps.h"
 #include "motion/time_at.h"
 #include "scene/union_depth.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/contacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "monitor/proximity.h"
-#include "sdf_ccd/monitor/pair_distances.h"
-#include "sdf_ccd/monitor/pair_traits.h"
-#include "sdf_ccd/monitor/velocity_scale.h"
+#include "sdf_ccd/distances.h"
+#include "sdf_ccd/velocity_scale.h"
 
 namespace sdf_ccd {
 

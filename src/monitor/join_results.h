@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 
@@ -41,7 +41,7 @@ class ResultJoiner {
   Vector3d shift(int body, const CycleMotion& motion) const;
 
   int max_points_;
-  double margin_;  // [m]
+  double margin_;       // [m]
   CycleResult joined_;  // wrenches hold impulses; times are from the start of the motion
   std::vector<Known> known_;
   CycleMotion ends_;

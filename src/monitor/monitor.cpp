@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "pair_result.h"
 #include "pair_times.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "summarise.h"
 
 namespace sdf_ccd {

@@ -5,7 +5,7 @@
 #include "monitor_impl.h"
 #include "pair_result.h"
 #include "scene_difference.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

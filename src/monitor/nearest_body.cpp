@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/nearest_body.h"
+#include "sdf_ccd/monitor.h"
 
 #include <algorithm>
 #include <exception>

@@ -8,7 +8,7 @@
 #include "contact_refinement.h"
 #include "pair_roles.h"
 #include "resting_answers.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "surface_contacts.h"
 #include "surface_pair.h"
 

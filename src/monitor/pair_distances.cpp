@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/distances.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "motion/two_body_motion.h"
 #include "scene/body_triangles.h"
 #include "scene/pair_bound.h"
-#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/contacts.h"
 #include "surface/moving_boxes.h"
 #include "surface/plane_separation.h"
 #include "surface/separation.h"

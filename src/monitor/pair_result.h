@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

@@ -1,6 +1,6 @@
 #include "pair_role.h"
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

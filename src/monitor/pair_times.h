@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "sdf_ccd/scene/body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

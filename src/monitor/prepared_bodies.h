@@ -8,7 +8,7 @@
 
 #include "scene/geometry_keys.h"
 #include "scene/mesh_pool.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

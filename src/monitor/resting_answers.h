@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

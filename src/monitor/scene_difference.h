@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

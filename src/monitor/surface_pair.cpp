@@ -7,7 +7,7 @@
 #include "motion/time_at.h"
 #include "pose_rounding.h"
 #include "scene/pair_bound.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "surface/plane_separation.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 
 #include "relative_motion.h"
 #include "scene/body_triangles.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 #include "surface/separation.h"
 
 namespace sdf_ccd {

@@ -6,7 +6,7 @@
 
 #include "clearance_table.h"
 #include "motion/two_body_motion.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

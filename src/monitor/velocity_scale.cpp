@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/velocity_scale.h"
+#include "sdf_ccd/velocity_scale.h"
 
 #include <algorithm>
 #include <cmath>

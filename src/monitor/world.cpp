@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,7 +13,7 @@
 #include "scene/build_body.h"
 #include "scene/plan/scene_totals.h"
 #include "scene/plan/surface_needs.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

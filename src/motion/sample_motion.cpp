@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "common/infinity.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "two_body_motion.h"
 
 namespace sdf_ccd {

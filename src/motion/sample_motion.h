@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "screw_motion.h"
-#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion.h"
 
 namespace sdf_ccd {
 

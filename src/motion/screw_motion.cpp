@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

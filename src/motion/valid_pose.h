@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/motion/cycle_motion.h"
+#include "sdf_ccd/motion.h"
 
 namespace sdf_ccd {
 

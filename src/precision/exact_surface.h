@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "field/signed_surface.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::precision {
 

@@ -8,8 +8,8 @@
 #include "common/number_text.h"
 #include "exact_surface.h"
 #include "random_inputs.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "studies.h"
 
 namespace sdf_ccd::precision {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contact_query.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "studies.h"
 
 namespace sdf_ccd::precision {

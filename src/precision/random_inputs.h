@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Repeatable random inputs for studies.
 namespace sdf_ccd::precision {

@@ -5,7 +5,7 @@
 
 #include "common/number_text.h"
 #include "contact_query.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "studies.h"
 
 namespace sdf_ccd::precision {

@@ -10,7 +10,7 @@
 
 #include "common/pi.h"
 #include "random_inputs.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 #include "studies.h"
 
 namespace sdf_ccd::precision {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "measure.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/segments.h"
 
 /// Studies of error against run time. Each runs the same queries on every system at every setting, in turn, on one
 /// thread, and compares the answers with exact values.

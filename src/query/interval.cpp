@@ -1,8 +1,8 @@
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 #include <algorithm>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd {
 

@@ -2,7 +2,7 @@
 
 #include "motion/chords.h"
 #include "query/lanes/sphere_lanes.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd {
 

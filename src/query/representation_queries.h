@@ -4,8 +4,8 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/mesh/primitive.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/primitive.h"
+#include "sdf_ccd/segments.h"
 
 /// The segment query for each kind of field that a DistanceField can hold. The options only say where to stop early;
 /// segmentIntervals() removes any further intervals.

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "query/lanes/segment_lanes.h"
 #endif
 #include "representation_queries.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "segment_reach.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd {
 

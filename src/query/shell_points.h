@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 #include "shell_query.h"
 
 namespace sdf_ccd {

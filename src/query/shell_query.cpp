@@ -5,7 +5,7 @@
 #include "common/infinity.h"
 #include "prefetch.h"
 #include "representation_queries.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "motion/chords.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd {
 

@@ -1,10 +1,10 @@
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "link_geometry.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "srdf_pairs.h"
 #include "urdf_geometry.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

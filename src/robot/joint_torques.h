@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/contact/contact_model.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/contact.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "common/shown_text.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

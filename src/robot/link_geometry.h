@@ -9,8 +9,8 @@
 
 #include <urdf_model/link.h>
 
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 namespace {

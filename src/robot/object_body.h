@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/robot/world_object.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

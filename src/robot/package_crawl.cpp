@@ -11,7 +11,7 @@
 
 #include <tinyxml2.h>
 
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/planned_motion.h"
+#include "sdf_ccd/trajectory.h"
 
 #include <algorithm>
 #include <cmath>

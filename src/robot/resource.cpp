@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 #include <algorithm>
 #include <cctype>

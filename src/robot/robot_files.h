@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

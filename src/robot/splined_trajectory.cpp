@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "robot/joint_spline.h"
-#include "sdf_ccd/robot/planned_motion.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "scene/name_pair.h"
 #include "scene/pair_rules.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
 
 #include <algorithm>
 #include <stdexcept>

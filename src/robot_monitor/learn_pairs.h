@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "robot/joint_states.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -8,7 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "robot/joint_sampler.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

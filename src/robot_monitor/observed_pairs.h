@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "robot/joint_states.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

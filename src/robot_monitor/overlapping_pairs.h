@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "scene/pair_rules.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/robot/robot_model.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

@@ -10,7 +10,7 @@
 #include "common/number_text.h"
 #include "robot_monitor/robot_scene_impl.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/distances.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "scene/pair_rules.h"
-#include "sdf_ccd/monitor/world.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

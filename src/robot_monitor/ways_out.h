@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/monitor/pair_distances.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/distances.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/scene/body.h"
+#include "sdf_ccd/body.h"
 
 #include <stdexcept>
 

@@ -4,8 +4,7 @@
 
 #include "scene/body_surface.h"
 #include "scene/mesh_pool.h"
-#include "sdf_ccd/scene/body.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

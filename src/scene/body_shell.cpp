@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "shell/contact_gap.h"
 #include "shell/sampled_points.h"
 

@@ -6,7 +6,7 @@
 
 #include "mesh/voxel_solid.h"
 #include "scene/mesh_pool.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 #include "surface/box_tree.h"
 
 namespace sdf_ccd {

@@ -4,7 +4,7 @@
 
 #include "mesh/triangle_tree.h"
 #include "scene/mesh_pool.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

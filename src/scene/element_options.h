@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

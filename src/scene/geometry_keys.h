@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/weak_store.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

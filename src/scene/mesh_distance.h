@@ -5,9 +5,9 @@
 
 #include "field/opening_caps.h"
 #include "field/signed_surface.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

@@ -9,10 +9,9 @@
 #include "common/time_limit.h"
 #include "common/weak_store.h"
 #include "scene/geometry_keys.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
-#include "sdf_ccd/scene/prepare_body.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

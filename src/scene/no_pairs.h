@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

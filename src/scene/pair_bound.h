@@ -1,8 +1,8 @@
 #pragma once
 
 #include "scene/body_triangles.h"
-#include "sdf_ccd/query/verdict.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/result.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

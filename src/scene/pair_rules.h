@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "common/infinity.h"
-#include "sdf_ccd/scene/body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

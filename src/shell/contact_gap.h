@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

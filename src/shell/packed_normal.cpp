@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/packed_normal.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

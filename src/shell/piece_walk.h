@@ -7,7 +7,7 @@
 
 #include "common/infinity.h"
 #include "nearest_point.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "surface_piece.h"
 #include "voronoi_piece.h"
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "sdf_ccd/mesh/primitive.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/primitive.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 

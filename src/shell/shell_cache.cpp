@@ -4,7 +4,7 @@
 #include <string>
 
 #include "mesh/content_hash.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd {
 namespace {

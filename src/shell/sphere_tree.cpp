@@ -1,11 +1,11 @@
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -7,8 +7,8 @@
 #include "point_grid.h"
 #include "sample_surface.h"
 #include "sampled_points.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/mesh.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 #include "surface_piece.h"
 
 namespace sdf_ccd {

@@ -8,7 +8,7 @@
 #include "common/parallel_for.h"
 #include "cut_test.h"
 #include "measured_patch.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "self_crossing.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

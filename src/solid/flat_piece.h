@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

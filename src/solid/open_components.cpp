@@ -9,7 +9,7 @@
 #include "common/parallel_for.h"
 #include "common/pi.h"
 #include "mesh/triangle_tree.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

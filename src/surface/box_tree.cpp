@@ -8,7 +8,7 @@
 
 #include "mesh/binned_split.h"
 #include "mesh/point_numbers.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

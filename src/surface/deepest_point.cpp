@@ -5,7 +5,7 @@
 
 #include "common/infinity.h"
 #include "hull_depth.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

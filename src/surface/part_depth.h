@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/infinity.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 #include "solid/solid_boundary.h"
 
 namespace sdf_ccd {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 #include "separation.h"
 
 /// Whether a surface stays above a plane while both move, and how far.

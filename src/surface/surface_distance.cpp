@@ -5,7 +5,7 @@
 
 #include "common/infinity.h"
 #include "moving_boxes.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "triangle_pair.h"
 
 namespace sdf_ccd {

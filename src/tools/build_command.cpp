@@ -9,7 +9,7 @@
 #include "mesh_build.h"
 #include "prepare_robot.h"
 #include "resolution_options.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 #include "threads_option.h"
 #include "time_option.h"
 #ifdef SDF_CCD_WITH_ROS

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "mesh_field.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::tools {
 

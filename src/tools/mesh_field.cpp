@@ -11,7 +11,7 @@
 #include "field/voxel_field.h"
 #include "lost_walls.h"
 #include "progress_bar.h"
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd::tools {
 

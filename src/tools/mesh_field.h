@@ -4,9 +4,8 @@
 #include <string>
 
 #include "field/lost_surface.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/closed_solid.h"
 #include "solid/solid_boundary.h"
 

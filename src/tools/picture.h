@@ -5,7 +5,7 @@
 
 #include <cairo.h>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd::tools {
 

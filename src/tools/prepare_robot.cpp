@@ -12,7 +12,7 @@
 #include "robot_monitor/overlapping_pairs.h"
 #include "scene/body_options.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::tools {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd::tools {
 

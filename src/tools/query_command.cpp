@@ -21,9 +21,9 @@
 #include "progress_bar.h"
 #include "query/least_distance.h"
 #include "resolution_options.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/segments.h"
 #include "segment_csv.h"
 #include "time_option.h"
 

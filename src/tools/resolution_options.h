@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "mesh_field.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::tools {
 

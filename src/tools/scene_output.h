@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interrupt.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::tools {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "output_file.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd::tools {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::tools {
 

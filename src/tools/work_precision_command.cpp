@@ -13,8 +13,7 @@
 #include "precision/report.h"
 #include "precision/studies.h"
 #include "progress_bar.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::tools {
 namespace {

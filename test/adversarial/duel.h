@@ -8,7 +8,7 @@
 #include "adversarial/family.h"
 #include "oracle/pair_motion.h"
 #include "oracle/random.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 /// Two bodies checked by a monitor, and their exact separation.
 namespace sdf_ccd::test {

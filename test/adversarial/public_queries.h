@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "adversarial/family.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
-/// Public queries of continuous collision detection with exact truth: Continuous-Collision-Detection/Sample-Queries (Wang
-/// et al. 2021), after the degenerate cases of Erleben (2018).
+/// Public queries of continuous collision detection with exact truth: Continuous-Collision-Detection/Sample-Queries
+/// (Wang et al. 2021), after the degenerate cases of Erleben (2018).
 namespace sdf_ccd::test {
 
 /// A vertex and a face, or two edges, each of which is displaced as a whole.
@@ -26,8 +26,8 @@ std::vector<PublicQuery> readPublicQueries(const std::string& folder);
 /// public truth.
 Tally publicTriangles(const std::vector<PublicQuery>& queries);
 
-/// Thin convex bodies around the elements, through a monitor. Judged by an oracle of their own, and by the public truth:
-/// what touches is never CLEAR.
+/// Thin convex bodies around the elements, through a monitor. Judged by an oracle of their own, and by the public
+/// truth: what touches is never CLEAR.
 Tally publicBodies(const std::vector<PublicQuery>& queries);
 
 }  // namespace sdf_ccd::test

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "oracle/files.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd::file_cache_test {
 

@@ -7,7 +7,7 @@
 #include "contact/curved_field.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::cell_ways_test {
 

@@ -6,7 +6,7 @@
 #include "field/adaptive/adaptive_grid.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::penalty_depth_test {
 

@@ -4,8 +4,8 @@
 
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::smooth_piece_test {
 

@@ -11,9 +11,8 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::adaptive_grid_test {
 

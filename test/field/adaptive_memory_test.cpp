@@ -4,7 +4,7 @@
 
 #include "allocations.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::adaptive_memory_test {
 

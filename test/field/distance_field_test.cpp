@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 #include <algorithm>
 
@@ -12,9 +12,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::distance_field_test {
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "oracle/drawn_meshes.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::drawn_mesh_test {
 

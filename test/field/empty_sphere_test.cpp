@@ -6,8 +6,8 @@
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd::empty_sphere_test {
 

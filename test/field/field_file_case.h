@@ -9,7 +9,7 @@
 #include "oracle/files.h"
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::test {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 #include <signal.h>
 #include <sys/stat.h>

@@ -6,9 +6,8 @@
 #include "oracle/random.h"
 #include "oracle/test_data.h"
 #include "oracle/winding_number.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/openings/openings.h"
 #include "solid/solid_boundary.h"
 

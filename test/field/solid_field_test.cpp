@@ -2,7 +2,7 @@
 
 #include "field/signed_surface.h"
 #include "oracle/box_union.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::solid_field_test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::voxel_field_test {
 

@@ -4,7 +4,7 @@
 #include "oracle/parameter_name.h"
 #include "oracle/random.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::voxel_map_field_test {
 

@@ -8,7 +8,7 @@
 
 #include <ros/ros.h>
 
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 namespace {

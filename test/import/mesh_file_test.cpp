@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 #include <ostream>
 #include <random>
@@ -13,7 +13,6 @@
 #include "oracle/rounds.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
 
 namespace sdf_ccd::mesh_file_test {
 

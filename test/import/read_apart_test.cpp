@@ -15,8 +15,8 @@
 #include "oracle/failure.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::read_apart_test {
 

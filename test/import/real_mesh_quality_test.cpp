@@ -4,8 +4,7 @@
 
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::real_mesh_quality_test {
 

@@ -2,8 +2,7 @@
 
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/openings/openings.h"
 
 namespace sdf_ccd::real_openings_test {

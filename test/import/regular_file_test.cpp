@@ -9,7 +9,7 @@
 
 #include "import/fake_reader.h"
 #include "oracle/failure.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::regular_file_test {
 

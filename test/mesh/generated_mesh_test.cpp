@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::generated_mesh_test {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 #include <limits>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 
 #include "allocations.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::allocation_test {
 

@@ -9,7 +9,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::doubtful_mesh_test {
 

@@ -7,7 +7,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::forces_test {
 

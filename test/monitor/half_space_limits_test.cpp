@@ -5,7 +5,7 @@
 
 #include "monitor/half_space_case.h"
 #include "oracle/random.h"
-#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/distances.h"
 
 namespace sdf_ccd::half_space_limits_test {
 

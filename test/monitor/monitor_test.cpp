@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

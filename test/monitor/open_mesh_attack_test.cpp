@@ -5,7 +5,7 @@
 #include "oracle/rounds.h"
 #include "oracle/scene_case.h"
 #include "oracle/triangle_distance.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 /// Searches for motions of open meshes with the verdict CONTACT although their triangles never meet, or CLEAR although
 /// they do.

@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/distances.h"
 
 #include <gtest/gtest.h>
 

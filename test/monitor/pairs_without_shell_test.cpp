@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "oracle/scene_case.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::pairs_without_shell_test {
 

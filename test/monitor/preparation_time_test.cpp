@@ -7,8 +7,8 @@
 #include "oracle/busy_machine.h"
 #include "oracle/hostile_meshes.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::preparation_time_test {
 

@@ -7,7 +7,7 @@
 
 #include "monitor/pair_times.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::resting_answers_test {
 

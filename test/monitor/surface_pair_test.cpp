@@ -6,7 +6,7 @@
 #include "monitor/surface_pair_case.h"
 #include "oracle/random.h"
 #include "scene/body_triangles.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::surface_pair_test {
 

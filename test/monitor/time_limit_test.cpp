@@ -10,7 +10,7 @@
 #include "oracle/busy_machine.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/contacts.h"
 
 namespace sdf_ccd::time_limit_test {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "monitor/summarise.h"
-#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/contacts.h"
 
 namespace sdf_ccd::test {
 

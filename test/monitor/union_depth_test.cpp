@@ -9,7 +9,7 @@
 #include "oracle/scene_case.h"
 #include "scene/body_options.h"
 #include "scene/union_depth.h"
-#include "sdf_ccd/monitor/nearest_body.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::union_depth_test {
 

@@ -11,7 +11,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::voxel_map_test {
 

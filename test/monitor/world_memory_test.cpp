@@ -8,7 +8,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "scene/body_triangles.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::world_memory_test {
 

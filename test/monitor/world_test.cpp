@@ -1,4 +1,4 @@
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 #include <gtest/gtest.h>
 

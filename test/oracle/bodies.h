@@ -1,9 +1,8 @@
 #pragma once
 
 #include "oracle/shapes.h"
-#include "sdf_ccd/dynamics/rigid_world.h"
-#include "sdf_ccd/dynamics/simulation.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/simulation.h"
 
 /// Rigid bodies for tests and studies.
 namespace sdf_ccd::test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/long_screw.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Exact separation of convex polytopes, flat polygons included, in long double.
 namespace sdf_ccd::test {

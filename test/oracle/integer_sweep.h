@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Whether bodies with integer coordinates meet while one slides along a straight path, computed without rounding.
 namespace sdf_ccd::test {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Motions of constant twist in long double, independent of src/motion/, as a reference for it.
 namespace sdf_ccd::test {

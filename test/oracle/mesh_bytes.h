@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Mesh files in memory, as other programs write them.
 namespace sdf_ccd::test {

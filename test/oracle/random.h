@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Repeatable random inputs.
 namespace sdf_ccd::test {

@@ -4,8 +4,8 @@
 
 #include "oracle/random.h"
 #include "oracle/uniform_walk.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::test {
 

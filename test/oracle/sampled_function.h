@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::test {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "oracle/contact_case.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::test {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Small closed meshes whose distances, areas and volumes are known.
 namespace sdf_ccd::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Distances of triangles by brute force, in long double.
 namespace sdf_ccd::test {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::test {
 

@@ -9,7 +9,7 @@
 
 #include <xxhash.h>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 /// Pairs of meshes that a hash which is not made against intent takes for one another.
 namespace sdf_ccd::test {

@@ -3,7 +3,7 @@
 #include "field/field_file_case.h"
 #include "oracle/mended_file.h"
 #include "oracle/rounds.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd::broken_field_test {
 

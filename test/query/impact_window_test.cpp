@@ -6,7 +6,7 @@
 
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::impact_window_test {
 

@@ -9,7 +9,7 @@
 #include "field/signed_surface.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::least_distance_test {
 

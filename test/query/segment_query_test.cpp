@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include "oracle/random_segment.h"
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::segment_query_test {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 #include <cstdlib>
 
@@ -8,7 +8,7 @@
 #include "oracle/sampled_function.h"
 #include "oracle/shapes.h"
 #include "oracle/uniform_walk.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::segment_walk_test {
 

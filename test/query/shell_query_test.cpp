@@ -9,8 +9,8 @@
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/field/build_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::shell_query_test {

@@ -13,7 +13,7 @@
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::damaged_file_test {
 

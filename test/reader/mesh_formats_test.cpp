@@ -7,7 +7,7 @@
 #include "oracle/hostile_files.h"
 #include "oracle/mesh_bytes.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::mesh_formats_test {
 

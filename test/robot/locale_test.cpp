@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/german_locale.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::locale_test {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -7,7 +7,7 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "robot/small_robots.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::robot_model_text_test {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/check_motion.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::test {
 

@@ -1,11 +1,11 @@
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include "robot_monitor/check_motion_case.h"
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd::check_motion_test {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "scene/name_pair.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::test {
 

@@ -8,9 +8,9 @@
 #include "oracle/files.h"
 #include "oracle/hostile_files.h"
 #include "oracle/parameter_name.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::hostile_mesh_test {
 

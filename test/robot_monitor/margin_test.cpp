@@ -6,7 +6,7 @@
 #include <string>
 
 #include "oracle/scene_case.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
 
 namespace sdf_ccd::margin_test {
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "scene/name_pair.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::overlapping_pairs_test {
 

@@ -5,8 +5,8 @@
 #include "oracle/files.h"
 #include "oracle/parameter_name.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::real_robots_test {
 

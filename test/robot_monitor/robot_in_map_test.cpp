@@ -12,10 +12,10 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/describe_robot.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::robot_in_map_test {
 

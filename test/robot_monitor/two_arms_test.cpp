@@ -5,8 +5,8 @@
 
 #include "oracle/random.h"
 #include "robot/trajectory_motion.h"
-#include "sdf_ccd/monitor/monitor.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/monitor.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::two_arms_test {
 

@@ -5,7 +5,7 @@
 #include "ros/loop_case.h"
 #include "ros/messages/conversions.h"
 #include "ros/monitor/proximity_measure.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::changing_loop_test {
 

@@ -13,7 +13,7 @@
 #include "sdf_ccd/QueryPoints.h"
 #include "sdf_ccd/UpdateScene.h"
 #include "sdf_ccd/WaysOut.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
 #include "sdf_ccd/sdf_ccd.h"
 #define Verdict VerdictMessage

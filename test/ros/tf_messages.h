@@ -4,7 +4,7 @@
 
 #include <tf2_msgs/TFMessage.h>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd::test {
 

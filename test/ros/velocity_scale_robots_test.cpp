@@ -12,7 +12,7 @@
 #include "ros/tf_messages.h"
 #include "ros/world/describe_scene.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::velocity_scale_robots_test {
 

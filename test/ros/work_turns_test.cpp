@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd::work_turns_test {
 

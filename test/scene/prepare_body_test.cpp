@@ -1,4 +1,4 @@
-#include "sdf_ccd/scene/prepare_body.h"
+#include "sdf_ccd/body.h"
 
 #include <gtest/gtest.h>
 

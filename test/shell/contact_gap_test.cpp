@@ -10,8 +10,8 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/primitive.h"
 #include "shell/flat_pieces.h"
 #include "shell/sample_surface.h"
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/shell.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include "mesh/triangle_tree.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::sample_surface_test {
 

@@ -2,7 +2,7 @@
 #include "cancel_moments.h"
 #include "oracle/hostile_meshes.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd::cancel_mesh_test {

@@ -4,7 +4,7 @@
 #include "mesh/triangle_tree.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::mesh_orientation_test {
 

@@ -5,8 +5,8 @@
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "oracle/winding_number.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd::openings_test {
 

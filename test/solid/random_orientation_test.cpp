@@ -8,7 +8,7 @@
 #include "mesh/triangle_tree.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/random.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::random_orientation_test {
 

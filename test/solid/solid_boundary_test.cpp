@@ -10,7 +10,7 @@
 #include "mesh/triangle.h"
 #include "oracle/box_union.h"
 #include "oracle/drawn_meshes.h"
-#include "sdf_ccd/mesh/mesh_quality.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd::solid_boundary_test {
 

@@ -8,7 +8,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/winding_number.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd::box_tree_ray_test {
 

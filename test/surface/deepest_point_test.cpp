@@ -11,7 +11,7 @@
 #include "oracle/rounds.h"
 #include "oracle/shapes.h"
 #include "oracle/triangle_distance.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::deepest_point_test {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/rounds.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 #include "surface/separation_case.h"
 
 namespace sdf_ccd::separation_bound_test {

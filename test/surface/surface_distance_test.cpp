@@ -6,7 +6,7 @@
 #include "oracle/random.h"
 #include "oracle/rounded_triangles.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/mesh/primitive.h"
+#include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd::surface_distance_test {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "oracle/open_shapes.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "tools/tool_run.h"
 
 namespace sdf_ccd::query_command_test {

@@ -6,8 +6,8 @@
 
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/shell/point_shell.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/shell.h"
 
 namespace sdf_ccd::tool_test {
 

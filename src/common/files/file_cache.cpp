@@ -16,7 +16,7 @@
 #include "cache_directory.h"
 #include "common/files/descriptor.h"
 #include "common/number_text.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

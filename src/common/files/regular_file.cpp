@@ -13,7 +13,7 @@
 #include "common/files/descriptor.h"
 #include "common/files/linkless_path.h"
 #include "common/shown_text.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/settings/setting.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

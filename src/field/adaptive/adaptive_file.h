@@ -6,7 +6,7 @@
 #include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/lost_surface.h"
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

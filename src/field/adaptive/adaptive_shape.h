@@ -1,7 +1,7 @@
 #pragma once
 
 #include "field/adaptive/adaptive_grid.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

@@ -12,7 +12,7 @@
 #include "field/cube_corner.h"
 #include "field/grid_cell.h"
 #include "field/near_octants.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "field/adaptive/adaptive_grid.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 #include "solid/solid_boundary.h"
 
 namespace sdf_ccd {

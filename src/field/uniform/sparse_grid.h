@@ -9,7 +9,7 @@
 
 #include "common/files/view.h"
 #include "field/empty_sphere.h"
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/field/build_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/mesh/mesh_file.h"
+#include "sdf_ccd/mesh.h"
 
 #include <stdexcept>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

@@ -8,7 +8,7 @@
 
 #include "common/number_text.h"
 #include "mesh/octree_leaves.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "voxels_near.h"
 
 namespace sdf_ccd {

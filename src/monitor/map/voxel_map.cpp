@@ -7,7 +7,7 @@
 
 #include "common/parallel_for.h"
 #include "field/voxel_field.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 #include "voxel_memory.h"
 #include "voxel_objects.h"
 

@@ -5,7 +5,7 @@
 #include "common/infinity.h"
 #include "scene/body_builder.h"
 #include "scene/body_surface.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 namespace {

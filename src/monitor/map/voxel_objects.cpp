@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "voxels_near.h"
 
 namespace sdf_ccd {

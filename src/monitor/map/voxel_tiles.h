@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 /// Voxels of a map, in tiles. Both are indexed from the lowest corner of the largest octree, of 2¹⁶ voxels a side:
 /// voxel kOriginVoxel begins at the map's origin, as in OctreeLeaf.

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "common/compiler_lanes.h"
-#include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -5,7 +5,7 @@
 #include "ball_exit.h"
 #include "cell_cubic.h"
 #include "grid_walk.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

@@ -6,7 +6,7 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/uniform/sparse_grid.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/segments.h"
 
 namespace sdf_ccd {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "motion/chords.h"
-#include "sdf_ccd/field/distance_field.h"
-#include "sdf_ccd/query/segment_query.h"
+#include "sdf_ccd/field.h"
+#include "sdf_ccd/segments.h"
 #include "segment_lanes.h"
 
 namespace sdf_ccd {

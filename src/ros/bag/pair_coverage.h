@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ros/tf/tf_tracker.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

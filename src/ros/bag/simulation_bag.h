@@ -5,7 +5,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "ros/bag/bag_writer.h"
-#include "sdf_ccd/dynamics/simulation.h"
+#include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {
 

@@ -14,8 +14,8 @@
 #include "sdf_ccd/Contact.h"
 #include "sdf_ccd/ErrorBound.h"
 #include "sdf_ccd/PairContact.h"
-#include "sdf_ccd/monitor/contact_tracker.h"
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

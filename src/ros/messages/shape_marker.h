@@ -4,8 +4,8 @@
 
 #include <visualization_msgs/Marker.h>
 
-#include "sdf_ccd/query/verdict.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd {
 

@@ -13,7 +13,7 @@
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/map_distances.h"
 #include "scene/geometry_keys.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

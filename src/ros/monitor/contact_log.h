@@ -6,7 +6,7 @@
 
 #include <ros/time.h>
 
-#include "sdf_ccd/monitor/contact_tracker.h"
+#include "sdf_ccd/contacts.h"
 
 namespace sdf_ccd {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "ros/tf/robot_frames.h"
-#include "sdf_ccd/robot/planned_motion.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

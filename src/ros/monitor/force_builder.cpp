@@ -13,7 +13,7 @@
 #include "ros/monitor/low_priority.h"
 #include "ros/tf/tf_tracker.h"
 #include "scene/body_builder.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -14,7 +14,7 @@
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
 #include "ros/world/world_bodies.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "monitor/cycle_safety.h"
 #include "ros/tf/tf_history.h"
-#include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd {
 

@@ -8,8 +8,8 @@
 #include "ros/parameters/parameters.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
-#include "sdf_ccd/monitor/contact_tracker.h"
-#include "sdf_ccd/monitor/pair_distances.h"
+#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/distances.h"
 
 namespace sdf_ccd {
 

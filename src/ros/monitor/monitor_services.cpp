@@ -1,7 +1,7 @@
 #include "ros/monitor/monitor_services.h"
 
 #include "ros/monitor/plan_message.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "ros/monitor/current_poses.h"
 #include "sdf_ccd/QueryMotion.h"
-#include "sdf_ccd/robot/planned_motion.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

@@ -21,8 +21,8 @@
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/low_priority.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/common/cancel.h"
-#include "sdf_ccd/robot_monitor/check_motion.h"
+#include "sdf_ccd/cancel.h"
+#include "sdf_ccd/check_motion.h"
 
 namespace sdf_ccd {
 namespace {

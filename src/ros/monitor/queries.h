@@ -16,7 +16,7 @@
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/QueryMotions.h"
 #include "sdf_ccd/QueryPoints.h"
-#include "sdf_ccd/monitor/nearest_body.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 
 #include "monitor/rigid_watch.h"
 #include "ros/tf/tf_tracker.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

@@ -6,7 +6,7 @@
 #include <tbb/flow_graph.h>
 
 #include "ros/monitor/low_priority.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ros/parameters/world_object.h"
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

@@ -7,7 +7,7 @@
 
 #include "mesh/generated_mesh.h"
 #include "motion/valid_pose.h"
-#include "sdf_ccd/robot/world_object.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

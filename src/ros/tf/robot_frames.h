@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ros/tf/tf_history.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <geometry_msgs/Transform.h>
 #include <ros/time.h>
 
-#include "sdf_ccd/common/eigen_types.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

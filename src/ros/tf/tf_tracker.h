@@ -5,7 +5,7 @@
 
 #include "motion/sample_motion.h"
 #include "ros/tf/tf_history.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

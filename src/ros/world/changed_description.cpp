@@ -8,7 +8,7 @@
 #include "robot/joint_chain.h"
 #include "ros/world/changing_scene_start_up.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -12,7 +12,7 @@
 #include "ros/world/changing_scene_start_up.h"
 #include "ros/world/world_bodies.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -10,7 +10,7 @@
 #include "monitor/map/voxel_mask.h"
 #include "ros/tf/tf_tracker.h"
 #include "ros/world/map_age.h"
-#include "sdf_ccd/monitor/world.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 

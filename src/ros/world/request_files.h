@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/files/regular_file.h"
-#include "sdf_ccd/robot/describe_robot.h"
+#include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {
 

@@ -7,7 +7,7 @@
 #include "scene/name_pair.h"
 #include "scene/no_pairs.h"
 #include "scene_totals.h"
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
 namespace {

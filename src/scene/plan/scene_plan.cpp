@@ -1,4 +1,4 @@
-#include "sdf_ccd/scene/scene.h"
+#include "sdf_ccd/scene.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/scene/scene_description.h"
+#include "sdf_ccd/body.h"
 
 namespace sdf_ccd {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "common/infinity.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

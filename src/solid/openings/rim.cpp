@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/mesh_edges.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "solid/edge_search.h"
 
 namespace sdf_ccd {

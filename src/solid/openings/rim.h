@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
 

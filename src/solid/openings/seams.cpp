@@ -7,7 +7,7 @@
 
 #include "mesh/corners.h"
 #include "mesh/triangle.h"
-#include "sdf_ccd/common/cancel.h"
+#include "sdf_ccd/cancel.h"
 #include "solid/edge_search.h"
 
 namespace sdf_ccd {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cycle_record.h"
-#include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd::tools {
 

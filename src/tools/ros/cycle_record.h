@@ -3,7 +3,7 @@
 #include <string>
 
 #include "sdf_ccd/ContactArray.h"
-#include "sdf_ccd/query/verdict.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd::tools {
 

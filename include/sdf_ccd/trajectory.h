@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/motion/cycle_motion.h"
-#include "sdf_ccd/robot/robot_model.h"
+#include "sdf_ccd/motion.h"
+#include "sdf_ccd/robot.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

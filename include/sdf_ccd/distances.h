@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

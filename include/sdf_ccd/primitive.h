@@ -2,8 +2,8 @@
 
 #include <variant>
 
-#include "sdf_ccd/common/eigen_types.h"
-#include "sdf_ccd/mesh/triangle_mesh.h"
+#include "sdf_ccd/mesh.h"
+#include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
 

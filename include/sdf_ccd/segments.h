@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/field/distance_field.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 
@@ -109,9 +109,9 @@ struct BatchResult {
 /// longest side, and a segment that grazes the isosurface closer than that may be reported as a hit or not, also beside
 /// another hit. Times are floats: on a long segment they resolve points to 6e-8 of its length (6 cm on one of 1000 km)
 /// and no finer. Where cells of an adaptive field differ in size, φ jumps by up to the field's error in the plane of
-/// their faces, and a segment in that plane gets the value of either side. Primitives are queried one by one. The result
-/// does not depend on the number of threads or on the other segments; between processors with other vector instructions
-/// it may differ within the tolerance.
+/// their faces, and a segment in that plane gets the value of either side. Primitives are queried one by one. The
+/// result does not depend on the number of threads or on the other segments; between processors with other vector
+/// instructions it may differ within the tolerance.
 /// @param segments  each within reach (isWithinReach()); `count` of them, at most 2³² − 1.
 /// @param options   |sigma| ≤ field.band().
 /// @param result    replaced; its memory is reused.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/monitor/monitor.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 
