@@ -44,9 +44,10 @@ void addOnce(const std::string& line, std::vector<std::string>& lines) {
 
 }  // namespace
 
-RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, ResourceLoader mesh_loader, const RobotSceneOptions& options)
+RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, const ResourceLoader& mesh_loader,
+                       const RobotSceneOptions& options)
     : robot(std::move(model)),
-      loader(options.loader ? options.loader : std::move(mesh_loader)),
+      loader(options.loader ? options.loader : mesh_loader),
       rules{rulesOf(options.allowed_pairs), rulesOf(options.checked_pairs)},
       measures_depths(options.exact_depths),
       forces(options.measure_contacts ? Forces::kKnown : Forces::kUnwanted),
@@ -58,7 +59,8 @@ RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, ResourceLoader mesh_l
   setMotionErrors(sampling, monitor.chords.tolerance, body_options);
   body_options.exact_depths = options.exact_depths;
   body_options.cache_directory = options.cache_directory;
-  Monitor(std::make_shared<const Scene>(), monitor);  // refuses what no monitor takes before anything is built
+  // Refuses what no monitor takes before anything is built.
+  [[maybe_unused]] const Monitor none(std::make_shared<const Scene>(), monitor);
   links = describeRobot(robot, srdf, loader, {options.check_adjacent}, link_warnings);
   for (BodyDescription& body : links.bodies) body.forces = forces;
   joints = jointsAt({}, {});
@@ -149,7 +151,8 @@ SceneDescription RobotScene::Impl::describe(const std::vector<Object>& with, std
 
 void RobotScene::Impl::change(std::vector<Object> next) {
   std::vector<std::string> notes;  // known from the first version
-  adopt(std::move(next), editor->next(describe(next, notes)));
+  std::shared_ptr<const WorldSnapshot> version = editor->next(describe(next, notes));
+  adopt(std::move(next), std::move(version));
 }
 
 void RobotScene::Impl::adopt(std::vector<Object> next, std::shared_ptr<const WorldSnapshot> version) {

@@ -21,7 +21,7 @@ struct RobotScene::Impl {
     std::vector<std::string> may_touch, warnings;
   };
 
-  Impl(RobotModel model, const Srdf& srdf, ResourceLoader mesh_loader, const RobotSceneOptions& options);
+  Impl(RobotModel model, const Srdf& srdf, const ResourceLoader& mesh_loader, const RobotSceneOptions& options);
 
   /// Builds the first version of the scene. @param overlaps  which links that overlap at rest are set aside.
   void build(const std::vector<WorldObject>& world, const Srdf& srdf, const RobotSceneOptions& options);
