@@ -48,9 +48,9 @@ std::vector<Obstacle> obstacles() {
   const auto along = [](test::Random& random) -> Vector3d {
     return Vector3d(test::uniform(random, -0.3, 0.3), 1.0, test::uniform(random, -0.03, 0.03)).normalized();
   };
-  return {{"plate", {plate}, within(plate), across},
-          {"edge", {plate}, on_edge, along},
-          {"tab", {tab}, within(tab), test::direction}};
+  return {{"plate", Box::fromSize(2.0 * plate), within(plate), across},
+          {"edge", Box::fromSize(2.0 * plate), on_edge, along},
+          {"tab", Box::fromSize(2.0 * tab), within(tab), test::direction}};
 }
 
 /// The robot's hand as a free body.
@@ -179,12 +179,12 @@ class Study {
       for (long k = 0; k < cycles; ++k) {
         end[0] = passage.at(kDuration * double(k + 1) / double(cycles));
         const auto begin = std::chrono::steady_clock::now();
-        worst = std::max(worst, check(start, end, k == 0));
+        worst = worseOf(worst, check(start, end, k == 0));
         tally.seconds += secondsSince(begin);
         start = end;
       }
       tally.cycles += cycles;
-      tally.missed += worst < Verdict::kUncertain;
+      tally.missed += worst != Verdict::kUncertain && worst != Verdict::kContact;
       uncertain += worst == Verdict::kUncertain;
     }
     return tally;
