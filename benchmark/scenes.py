@@ -83,6 +83,7 @@ class Joints:
 
     def stop(self):
         self.timer.shutdown()
+        self.timer.join()
         self.publisher.unregister()
 
 
