@@ -2,7 +2,7 @@
 // Not for targets whose vectors have a size unknown to the compiler: here vectors are members of structs.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "segment_lanes.cpp"
+#define HWY_TARGET_INCLUDE "query/lanes/segment_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>

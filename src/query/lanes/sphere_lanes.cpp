@@ -1,7 +1,7 @@
 // Vector code that is compiled once for each kind of processor; see segment_lanes.cpp.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "sphere_lanes.cpp"
+#define HWY_TARGET_INCLUDE "query/lanes/sphere_lanes.cpp"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
