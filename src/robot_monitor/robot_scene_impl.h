@@ -23,7 +23,7 @@ struct RobotScene::Impl {
 
   Impl(RobotModel model, const Srdf& srdf, const ResourceLoader& mesh_loader, const RobotSceneOptions& options);
 
-  /// Builds the first version of the scene. @param overlaps  which links that overlap at rest are set aside.
+  /// Builds the first version of the scene.
   void build(const std::vector<WorldObject>& world, const Srdf& srdf, const RobotSceneOptions& options);
 
   /// Makes the next version of the scene, with these objects. If it throws, nothing is changed.

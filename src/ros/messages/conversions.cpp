@@ -127,7 +127,7 @@ bool touchesAtSamples(const PairResult& pair, const CycleContext& cycle) {
 void setPairContact(const PairResult& pair, const CycleContext& cycle, PairContact& message) {
   message.body_a = cycle.scene.bodies[pair.body_a].name;
   message.body_b = cycle.scene.bodies[pair.body_b].name;
-  message.verdict = static_cast<std::uint8_t>(pair.verdict);
+  message.verdict = numberOf(pair.verdict);
   message.reason = pair.reason;
   message.incomplete = pair.incomplete;
   message.checked_from = timeAfter(cycle.start, cycle.motion.times[pair.span.first]);
@@ -165,7 +165,7 @@ void setContact(const TrackedContact& contact, Contact& message) {
   message.begins = contact.begins;
   message.ends = contact.ends;
   message.is_lost = contact.is_lost;
-  message.verdict = static_cast<std::uint8_t>(contact.verdict);
+  message.verdict = numberOf(contact.verdict);
   message.begin = toTime(contact.begin);
   message.end = toTime(contact.end);
   message.cycles = contact.cycles;

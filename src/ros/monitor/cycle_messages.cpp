@@ -42,7 +42,7 @@ void setCycle(const MonitorLoop& loop, Message& message) {
   message.header.stamp = cycle.end;
   message.header.frame_id = loop.fixedFrame();
   message.scene_version = loop.world()->version();
-  message.verdict = static_cast<std::uint8_t>(result.verdict);
+  message.verdict = numberOf(result.verdict);
   setUncheckedCycle(loop, message.reason);
   setStatus(cycle, result, message.cycle);
   setUncheckedBodies(loop, message.unchecked);

@@ -149,6 +149,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     addOutdatedMap(*world_, now, cycle_.motion.missing);
     request_ = request;
     run(request);
+    findUnchecked();
     trackContacts(request);
   }
   return step;
@@ -172,6 +173,20 @@ void MonitorLoop::guardRigid() {
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);
   result_ = &guarded_;
+}
+
+void MonitorLoop::findUnchecked() {
+  unchecked_since_.assign(scene().bodies.size(), ros::TIME_MAX);
+  if (result_->not_checked == 0) return;
+  for (const int i : result_->not_clear) {
+    const PairResult& pair = result_->pairs[static_cast<std::size_t>(i)];
+    if (pair.verdict != Verdict::kNotChecked) continue;
+    const ros::Time since = cycle_.origin + ros::Duration(cycle_.motion.times[pair.span.first]);
+    for (const int body : {pair.body_a, pair.body_b}) {
+      ros::Time& earliest = unchecked_since_[static_cast<std::size_t>(body)];
+      earliest = std::min(earliest, since);
+    }
+  }
 }
 
 void MonitorLoop::trackContacts(const CycleRequest& request) {

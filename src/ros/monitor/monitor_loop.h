@@ -83,6 +83,9 @@ class MonitorLoop {
   /// Per body: the number of its pairs.
   const std::vector<std::uint32_t>& pairsOfBodies() const { return pairs_of_bodies_; }
 
+  /// Per body: from when on one of its pairs was not checked in the last cycle; ros::TIME_MAX: all were.
+  const std::vector<ros::Time>& uncheckedSince() const { return unchecked_since_; }
+
   /// The contacts over time, if cycles are requested with contacts (CycleRequest::contacts); else there are none. kJump
   /// and reset() end all of them.
   const ContactTracker& contacts() const { return contacts_; }
@@ -107,6 +110,7 @@ class MonitorLoop {
  private:
   void run(const CycleRequest& request);
   void guardRigid();
+  void findUnchecked();
   void trackContacts(const CycleRequest& request);
   void setOverlaps(OverlapNotes& notes);
   std::string movingFixedFrame() const;
@@ -127,6 +131,7 @@ class MonitorLoop {
   RobotPairTraits traits_finder_;
   std::vector<PairTraits> traits_;
   std::vector<std::uint32_t> pairs_of_bodies_;
+  std::vector<ros::Time> unchecked_since_;
   StandingWarnings warnings_;
   OverlapNotes overlaps_;
   ros::Time frame_watched_;  // when the fixed frame was last tested

@@ -82,7 +82,7 @@ QueryMotion::Request requestOf(const QueryMotions::Request& request, std::size_t
 
 CheckedMotion toCheckedMotion(const MotionVerdict& verdict, const Scene& scene) {
   CheckedMotion message;
-  message.verdict = static_cast<std::uint8_t>(verdict.verdict);
+  message.verdict = numberOf(verdict.verdict);
   message.error_bound = verdict.error_bound;
   if (verdict.pair >= 0) {
     const PlannedPair& pair = scene.pairs[static_cast<std::size_t>(verdict.pair)];
@@ -94,7 +94,7 @@ CheckedMotion toCheckedMotion(const MotionVerdict& verdict, const Scene& scene) 
     CheckedPair& listed = message.pairs.emplace_back();
     listed.body_a = scene.bodies[pair.body_a].name;
     listed.body_b = scene.bodies[pair.body_b].name;
-    listed.verdict = static_cast<std::uint8_t>(pair.verdict);
+    listed.verdict = numberOf(pair.verdict);
     listed.time = ros::Duration(pair.time);
   }
   return message;
@@ -302,7 +302,7 @@ bool Queries::checkOnce(const QueryMotion::Request& request, QueryMotion::Respon
     response.assumed_joints.push_back(joint.name);
     response.assumed_positions.push_back(joint.position);
   }
-  response.verdict = static_cast<std::uint8_t>(result.verdict);
+  response.verdict = numberOf(result.verdict);
   response.error_bound = toErrorBound(result.error);
   response.margin = request.margin;
   const CycleContext context{world->scene(), check.ends(), planned.samples, ros::Time()};

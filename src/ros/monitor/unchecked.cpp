@@ -61,7 +61,6 @@ void setUncheckedCycle(const MonitorLoop& loop, std::string& reason) {
 
 void setUncheckedBodies(const MonitorLoop& loop, std::vector<UncheckedBody>& bodies) {
   const TrackedCycle& cycle = loop.cycle();
-  const CycleResult& result = loop.result();
   std::size_t count = 0;
   for (std::size_t b = 0; b < loop.scene().bodies.size(); ++b) {
     const int body = static_cast<int>(b);
@@ -71,15 +70,8 @@ void setUncheckedBodies(const MonitorLoop& loop, std::vector<UncheckedBody>& bod
     UncheckedBody& entry = bodies[count++];
     entry.body = loop.scene().bodies[b].name;
     entry.reason = reason;
-    entry.since = cycle.start;
+    entry.since = std::min(cycle.start, loop.uncheckedSince()[b]);
     entry.pairs = loop.pairsOfBodies()[b];
-    if (!loop.scene().bodies[b].failure.empty()) continue;  // not_clear does not hold the pairs of these
-    for (const int i : result.not_clear) {
-      const PairResult& pair = result.pairs[static_cast<std::size_t>(i)];
-      const bool is_its = pair.verdict == Verdict::kNotChecked && (pair.body_a == body || pair.body_b == body);
-      if (is_its)
-        entry.since = std::min(entry.since, cycle.origin + ros::Duration(cycle.motion.times[pair.span.first]));
-    }
   }
   bodies.resize(count);
 }
