@@ -16,7 +16,7 @@ constexpr int kAfterVain = 8;
 
 }  // namespace
 
-/// Whether the pair's motion is known in this cycle. If not, its checker tells why.
+/// Whether the pair's motion is known in this cycle. If not, its check tells why.
 bool Monitor::Impl::isMotionKnown(const CycleMotion& motion, const DuePair& due) const {
   const PairResult& pair = result.pairs[static_cast<std::size_t>(due.pair)];
   const auto isKnown = [&](int body) { return bodies->whyUnknown(motion, body).empty(); };
@@ -41,18 +41,19 @@ std::size_t Monitor::Impl::orderQueue(const CycleMotion& motion) {
 void Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, const CycleMotion& motion,
                                const CycleRequest& request, PairMemory& pair_memory) {
   const auto i = static_cast<std::size_t>(due.pair);
+  const PairCycle cycle_of_pair = cycleOf(motion, request, pair_memory);
   bool is_decided = false;
   if (Clock::now() < until) {
     checkCancelled();
     pair_memory.deadline = until;
     try {
-      checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
+      checkPair(cycle_of_pair, *pairs[i], result.pairs[i]);
       is_decided = true;
     } catch (const Cancelled&) {
       checkCancelled();
     }
   }
-  if (!is_decided) checkers[i].postpone(motion, *bodies, due.left, request.margin, pair_memory, result.pairs[i]);
+  if (!is_decided) postponePair(cycle_of_pair, due.left, *pairs[i], result.pairs[i]);
 }
 
 /// All threads take pairs from one queue, so that the most urgent ones are done first: verdicts, then what is missing
@@ -89,13 +90,13 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
   std::atomic<int> before{0};
   forEachInQueue([&](std::size_t /*k*/, std::size_t i, PairMemory& pair_memory) {
     PairResult& pair = result.pairs[i];
-    if (!pair.incomplete || !checkers[i].isToComplete()) return;
+    if (!pair.incomplete || !pairs[i]->is_to_complete) return;
     const bool is_first = before++ == 0;
     const Clock::time_point end = untilFor(is_first ? 0 : 1);
     if (Clock::now() < end) {
       checkCancelled();
       pair_memory.deadline = end;
-      checkers[i].complete(motion, *bodies, request, pair_memory, pair);
+      completePair(cycleOf(motion, request, pair_memory), *pairs[i], pair);
       if (pair.incomplete) checkCancelled();
     }
     waited[i] = pair.incomplete && !is_first ? waited[i] + 1 : 0;

@@ -40,7 +40,7 @@ void ContactCollector::begin(const CycleMotion& motion, const PairResult& pair, 
 
 void ContactCollector::setFieldPoses(const PairRole& role) {
   const auto X_CF = [&](std::size_t waypoint) {
-    Isometry3d X = motion_->pose(role.fieldBody(), waypoint);
+    Isometry3d X = motion_->pose(role.shellIsA() ? body_b_ : body_a_, waypoint);
     X.translation() -= p_WC_;
     return X;
   };
@@ -59,14 +59,14 @@ void ContactCollector::setFieldPoses(const PairRole& role) {
   }
 }
 
-void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const std::vector<BodyData>& bodies,
-                           const ContactOptions& options, bool with_impulse) {
+void ContactCollector::add(PairRole& role, double weight, const ContactOptions& options, bool with_impulse) {
+  const bool shell_is_a = role.shellIsA();
   bool have_poses = false;
   CancelTicks<> cancel;
   solids_[shell_is_a ? 0 : 1] = &role.field();
   position_error_ = std::max(position_error_, role.shell().position_error);
   const std::size_t size = std::max<std::size_t>(1, kBlockHits / role.shell().size());
-  const GroupedShell shell{role.shell(), role.tree(), bodies[static_cast<std::size_t>(role.motion().p())].sums};
+  const GroupedShell shell = role.groupedShell();
   const bool groups_points =
       !shell.sums.empty() && options.stiffness_per == StiffnessPer::kArea && options.normal == NormalSource::kField;
   for (std::size_t p = 0; p < role.field().parts.size(); ++p) {
@@ -76,7 +76,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
     if (chords > 1 || p > 0) is_divided_ = true;
     for (std::size_t first = 0; first < chords; first += size) {
       const ChordPath& block = blockOf(path, first, size);
-      shellIntervals(part.field, role.shell(), role.tree(), block, {}, query_);
+      shellIntervals(part.field, role.shell(), shell.tree, block, {}, query_);
       if (!query_.touches()) continue;
       if (!have_poses) setFieldPoses(role);
       have_poses = true;
@@ -85,8 +85,7 @@ void ContactCollector::add(PairRole& role, bool shell_is_a, double weight, const
         cancel.check();
         X_CG_.push_back(X_CF_[first + i] * part.X_BG);
       }
-      const ContactInput input{part.field, role.shell(), block, X_CG_,
-                               bodies[static_cast<std::size_t>(role.fieldBody())].siblings[p]};
+      const ContactInput input{part.field, role.shell(), block, X_CG_, role.siblings(p)};
       const bool in_groups = groups_points && !part.field.openings();
       if (in_groups) {
         groups_.divide(part.field, shell, block, query_, listed_);

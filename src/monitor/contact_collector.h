@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/penalty.h"
-#include "contact/point_groups.h"
 #include "pair_role.h"
 
 namespace sdf_ccd {
@@ -19,22 +17,13 @@ namespace sdf_ccd {
 /// precision that moments about the body keep.
 class ContactCollector {
  public:
-  /// What is known of a body for all of its contacts.
-  struct BodyData {
-    std::vector<std::vector<SiblingField>> siblings;  // per part
-    std::vector<NodeSum> sums;                        // of its shell
-  };
-
   /// @param pair     gives the bodies, the span of the motion, and the error of contacts.
   /// @param crosses  whether the surfaces are known to cross.
   void begin(const CycleMotion& motion, const PairResult& pair, bool crosses);
 
   /// Adds the contacts of one role; PairRole::cut() must have been called.
-  /// @param shell_is_a  the shell's body is the pair's body A.
-  /// @param weight      share of the role's impulse where the other role finds the same contact: roleWeight().
-  /// @param bodies      of the scene.
-  void add(PairRole& role, bool shell_is_a, double weight, const std::vector<BodyData>& bodies,
-           const ContactOptions& options, bool with_impulse);
+  /// @param weight  share of the role's impulse where the other role finds the same contact: roleWeight().
+  void add(PairRole& role, double weight, const ContactOptions& options, bool with_impulse);
 
   /// Writes intervals, deepest point, points and wrenches to the result.
   void finish(const CycleRequest& request, PairResult& result);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/time_at.h"
+#include "pair_cycle.h"
 #include "pair_result.h"
 #include "scene/pair_bound.h"
 #include "scene/union_depth.h"
@@ -40,27 +41,25 @@ double travelBetween(const RelativeMotion& motion, double from, double to) {
 
 }  // namespace
 
-bool ContactRefinement::isPossible(const Scene& scene, const PlannedPair& pair) {
-  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+bool ContactRefinement::isPossible(const Body& a, const Body& b) {
   return canBeMeasured(a) && canBeMeasured(b) && !(a.parts.empty() && b.parts.empty());
 }
 
-ContactRefinement::ContactRefinement(const Scene& scene, const PlannedPair& pair, double resolution)
-    : scene_(scene), resolution_(resolution) {
-  const auto add = [&](int f, int p) {
-    const Body &solid = scene.bodies[f], &surface = scene.bodies[p];
+ContactRefinement::ContactRefinement(const Body& a, const Body& b, double resolution)
+    : a_(&a), b_(&b), resolution_(resolution) {
+  const auto add = [&](const Body& solid, const Body& surface) {
     if (!solid.parts.empty() && surface.triangles)
-      directions_.push_back({f, p, {&surface.triangles->tree, partsOf(surface)}, partsOf(solid)});
+      directions_.push_back({&solid, &surface, {&surface.triangles->tree, partsOf(surface)}, partsOf(solid)});
   };
-  add(pair.body_b, pair.body_a);
-  add(pair.body_a, pair.body_b);
+  add(b, a);
+  add(a, b);
 }
 
-void ContactRefinement::run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
-                            PairResult& result) const {
-  if (const std::optional<Interval> touch = surfaces.firstTouch(motion_error, memory.separation))
+void ContactRefinement::run(const PairCycle& cycle, SurfacePair& surfaces, PairResult& result) const {
+  const double motion_error = result.error.chord;
+  if (const std::optional<Interval> touch = surfaces.firstTouch(motion_error, cycle.memory.separation))
     setBegin(*touch, surfaces, result);
-  findDeepest(bodies, motion_error + surfaces.deviation(), memory, result);
+  findDeepest(cycle.bodies, motion_error + surfaces.deviation(), cycle.memory.refinement, result);
   result.refined = true;
 }
 
@@ -90,9 +89,9 @@ void ContactRefinement::setBegin(const Interval& touch, const SurfacePair& surfa
 /// Upper bound of the depth, during the step, of points of body p where parts of body f meet [m]; 0 if there are none.
 /// @param depth  of points in single parts, at most [m].
 double ContactRefinement::depthAtSeams(const StepMotion& step, double depth) const {
-  const Body& solid = scene_.bodies[step.f];
+  const Body& solid = *step.f;
   const std::vector<BodyPart>& parts = solid.parts;
-  const BoundingBall& ball = scene_.bodies[step.p].ball;
+  const BoundingBall& ball = step.p->ball;
   const Vector3d center_F = step.motion.X_FP(0.5) * ball.center;
   const double reach = ball.radius + step.travel;
   const auto isNear = [&](const BodyPart& part) {
@@ -129,8 +128,8 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   motions.clear();
   for (std::size_t i = 0; i < directions_.size(); ++i) {
     const Direction& direction = directions_[i];
-    RelativeMotion relative(scene_, direction.f, direction.p);
-    relative.take(bodies, result.span, memory.bounds[i]);
+    RelativeMotion relative(*direction.f, *direction.p, direction.f == a_);
+    relative.set({bodies, result.body_a, result.body_b, result.span}, memory.bounds[i]);
     for (std::size_t step = 0; step < relative.steps(); ++step) {
       const TwoBodyMotion motion = relative.motion(step);
       search.add(direction.surface, direction.solid, motion, relative.bounds(step).travel);
@@ -141,21 +140,20 @@ void ContactRefinement::findDeepest(const SweptBodies& bodies, double error, Mem
   ContactPoint point = result.deepest;
   if (search.found()) {
     const DeepestPoint& found = search.deepest();
-    const int f = motions[found.motion].f;
     const TwoBodyMotion& motion = motions[found.motion].motion;
     const Isometry3d X_WF = motion.X_WF.pose(found.s);
     point.time = timeAt(motion, found.s);
     point.p_W = X_WF * found.p_F;
     // Outward from the solid: this is from A to B if the solid is A.
-    point.normal_W = (f == result.body_a ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
+    point.normal_W = (motions[found.motion].f == a_ ? 1.0 : -1.0) * (X_WF.linear() * found.out_F);
   }
   point.depth = search.deepest().depth;
   point.depth_error = search.error() + error;
   // Without its fields, a body's inside is not searched for the other's surface; of a half-space's that does not count.
-  const bool counts = scene_.bodies[result.body_a].triangles && scene_.bodies[result.body_b].triangles;
-  for (const int body : {result.body_a, result.body_b})
-    if (counts && scene_.bodies[body].parts.empty())
-      point.depth_error = std::max(point.depth_error, greatestDepth(scene_.bodies[body]) + error - point.depth);
+  const bool counts = a_->triangles && b_->triangles;
+  for (const Body* body : {a_, b_})
+    if (counts && body->parts.empty())
+      point.depth_error = std::max(point.depth_error, greatestDepth(*body) + error - point.depth);
   // The search measures the depth in one part. Where parts meet, the body is deeper than that.
   const double in_part = point.depth + point.depth_error;
   for (const StepMotion& step : motions)

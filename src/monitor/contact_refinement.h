@@ -8,12 +8,14 @@
 
 namespace sdf_ccd {
 
+struct PairCycle;
+
 /// Measures a contact on the triangles of both bodies, starting from what fields and shells found.
 class ContactRefinement {
  public:
-  /// A motion over one step, of a surface relative to the solid of body f.
+  /// A motion over one step, of the surface of body p relative to the solid of body f.
   struct StepMotion {
-    int f, p;
+    const Body *f, *p;
     TwoBodyMotion motion;
     double travel;  // of any point of p relative to f, at most [m]
   };
@@ -23,26 +25,24 @@ class ContactRefinement {
     DeepestSearch search;
     std::vector<StepMotion> motions;                          // those of the search
     std::array<std::vector<RelativeMotionBounds>, 2> bounds;  // per direction
-    SeparationMemory separation;
   };
 
-  /// Whether both bodies of a pair that haveSurfaces() have the solids in which depths are measured, or one is a
+  /// Whether both of two bodies that haveSurfaces() have the solids in which depths are measured, or one is a
   /// half-space.
-  static bool isPossible(const Scene& scene, const PlannedPair& pair);
+  static bool isPossible(const Body& a, const Body& b);
 
-  /// The pair must satisfy isPossible().
-  ContactRefinement(const Scene& scene, const PlannedPair& pair, double resolution);
+  /// The bodies must satisfy isPossible(), and outlive this.
+  ContactRefinement(const Body& a, const Body& b, double resolution);
 
   /// Sets the deepest point and the first touch, and the verdict CONTACT if a depth proves it.
-  /// @param surfaces      must have the motion.
-  /// @param motion_error  upper bound of the error of the bodies' relative position [m].
-  void run(const SweptBodies& bodies, SurfacePair& surfaces, double motion_error, Memory& memory,
-           PairResult& result) const;
+  /// @param result    its error.chord bounds the error of the bodies' relative position.
+  /// @param surfaces  must have the motion.
+  void run(const PairCycle& cycle, SurfacePair& surfaces, PairResult& result) const;
 
  private:
   /// The surface of body p, which penetrates the solid of body f.
   struct Direction {
-    int f, p;
+    const Body *f, *p;
     EnteringSurface surface;
     std::vector<SolidPart> solid;
   };
@@ -51,7 +51,7 @@ class ContactRefinement {
   double depthAtSeams(const StepMotion& step, double depth) const;
   void findDeepest(const SweptBodies& bodies, double error, Memory& memory, PairResult& result) const;
 
-  const Scene& scene_;
+  const Body *a_, *b_;
   double resolution_;
   std::vector<Direction> directions_;
 };

@@ -23,20 +23,6 @@ void requireMargin(double margin) {
                               numberText(margin) + " m");
 }
 
-std::vector<ContactCollector::BodyData> bodyDataOf(const Scene& scene) {
-  std::vector<ContactCollector::BodyData> data(scene.bodies.size());
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Body& body = scene.bodies[b];
-    const std::vector<BodyPart>& parts = body.parts;
-    data[b].sums = nodeSums(*body.shell, *body.tree);
-    data[b].siblings.resize(parts.size());
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      for (std::size_t k = 0; k < parts.size(); ++k)
-        if (k != i) data[b].siblings[i].push_back({&parts[k].field, parts[k].X_BG.inverse() * parts[i].X_BG, k < i});
-  }
-  return data;
-}
-
 }  // namespace
 
 std::shared_ptr<MonitorMemory> makeMonitorMemory() {
@@ -47,20 +33,23 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
                     std::shared_ptr<MonitorMemory> shared_memory)
     : scene(std::move(of_scene)),
       options(with_options),
-      body_data(bodyDataOf(*scene)),
       bodies(std::make_unique<SweptBodies>(*scene)),
       memory(std::move(shared_memory)) {
-  checkers.reserve(scene->pairs.size());
+  for (std::size_t b = 0; b < scene->bodies.size(); ++b)
+    monitored_bodies.push_back(std::make_shared<const MonitoredBody>(scene->bodies.shared(b)));
+  pairs.reserve(scene->pairs.size());
   result.pairs.reserve(scene->pairs.size());
   for (const PlannedPair& pair : scene->pairs) {
-    checkers.emplace_back(*scene, pair, body_data, options);
+    pairs.push_back(std::make_shared<MonitoredPair>(monitored_bodies[static_cast<std::size_t>(pair.body_a)],
+                                                    monitored_bodies[static_cast<std::size_t>(pair.body_b)], pair,
+                                                    options.max_error));
     PairResult& of_pair = result.pairs.emplace_back();
     of_pair.body_a = pair.body_a;
     of_pair.body_b = pair.body_b;
   }
-  const std::size_t pairs = checkers.size();
-  schedule = std::make_unique<Schedule>(*scene, checkers);
-  is_failed.assign(pairs, 0);
+  const std::size_t count = pairs.size();
+  schedule = std::make_unique<Schedule>(*scene, pairs);
+  is_failed.assign(count, 0);
   for (const int pair : schedule->failed()) {
     const PlannedPair& planned = scene->pairs[static_cast<std::size_t>(pair)];
     const std::string& why = scene->bodies[planned.body_a].failure;
@@ -70,12 +59,12 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
     is_failed[static_cast<std::size_t>(pair)] = 1;
   }
   result.failed = schedule->failed();
-  due_in_cycle.assign(pairs, 0);
-  last_due.reserve(pairs);
-  queue.reserve(pairs);
-  waited.assign(pairs, 0);
-  result.not_clear.reserve(pairs);
-  shape.pairs = pairs;
+  due_in_cycle.assign(count, 0);
+  last_due.reserve(count);
+  queue.reserve(count);
+  waited.assign(count, 0);
+  result.not_clear.reserve(count);
+  shape.pairs = count;
   for (const Body& body : scene->bodies) {
     shape.bodies.push_back(body.name);
     shape.without_poses.push_back(!body.failure.empty());
@@ -119,12 +108,12 @@ const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequ
   validate(motion, shape, "cycle motion");
   requireMargin(request.margin);
   try {
-    schedule->take(motion, request.margin, checkers);
+    schedule->take(motion, request.margin, pairs);
     takeSpans(motion);
     takeSkipped(request);
     checkDue(motion, request, start);
     measureSoon(motion, endOf(request, start));
-    schedule->settle(motion, checkers);
+    schedule->settle(motion, pairs);
   } catch (...) {
     forget();
     throw;
@@ -152,12 +141,12 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
     if (due_in_cycle[i] != cycle && !is_failed[i]) setSkipped(errorOf(static_cast<int>(i)), result.pairs[i]);
   };
   for (const int pair : last_due) setQuiet(static_cast<std::size_t>(pair));
-  for (std::size_t i = 0; i < checkers.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
+  for (std::size_t i = 0; i < pairs.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
   are_of_cycle = request.skipped_pairs;
   last_due.clear();
   for (const DuePair& due : schedule->due()) last_due.push_back(due.pair);
   if (!request.skipped_pairs) return;
-  for (std::size_t i = 0; i < checkers.size(); ++i) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (due_in_cycle[i] == cycle || is_failed[i]) continue;
     result.pairs[i].error = errorOf(static_cast<int>(i));
     result.pairs[i].clearance = schedule->clearance(static_cast<int>(i)) - schedule->motionError(static_cast<int>(i));
@@ -166,9 +155,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
 
 /// For a pair that is not due.
 ErrorSources Monitor::Impl::errorOf(int pair) const {
-  ErrorSources error = checkers[static_cast<std::size_t>(pair)].bound();
-  error.chord += schedule->motionError(pair);
-  return error;
+  return {0.0, schedule->motionError(pair), 0.0, pairs[static_cast<std::size_t>(pair)]->verdict.deviation()};
 }
 
 void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
@@ -176,8 +163,9 @@ void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const C
   checkCancelled();
   const auto i = static_cast<std::size_t>(due.pair);
   const PairTimes::Measure measure(request.times, due.pair);
-  checkers[i].run(motion, *bodies, request, pair_memory, result.pairs[i]);
-  if (checkers[i].isToComplete()) checkers[i].complete(motion, *bodies, request, pair_memory, result.pairs[i]);
+  const PairCycle cycle_of_pair = cycleOf(motion, request, pair_memory);
+  checkPair(cycle_of_pair, *pairs[i], result.pairs[i]);
+  completePair(cycle_of_pair, *pairs[i], result.pairs[i]);
   if (result.pairs[i].incomplete) checkCancelled();
 }
 
@@ -217,7 +205,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
   std::unique_ptr<PairMemory> taken = memory->take();
   std::optional<double> clearance;
   try {
-    clearance = checkers[i].measure(motion, *bodies, result.pairs[i].span, *taken);
+    clearance = measureClearance(cycleOf(motion, {}, *taken), *pairs[i], result.pairs[i]);
   } catch (const std::exception&) {  // the cycle's results are complete without it
   } catch (const Cancelled&) {
   }
@@ -241,7 +229,7 @@ void Monitor::Impl::summarise(std::size_t end) {
 void Monitor::Impl::forget() {
   schedule->forget();
   std::fill(waited.begin(), waited.end(), 0);
-  for (PairChecker& checker : checkers) checker.forget();
+  for (const auto& pair : pairs) pair->forget();
 }
 
 const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration,

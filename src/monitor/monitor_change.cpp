@@ -70,8 +70,8 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
     if (last > 0) result.span = {0, last};
   for (const int now : change->difference.pairsNow()) {
     if (now < 0 || monitor.is_failed[static_cast<std::size_t>(now)]) continue;
-    setSkipped(monitor.checkers[static_cast<std::size_t>(now)].bound(),
-               monitor.result.pairs[static_cast<std::size_t>(now)]);
+    const auto i = static_cast<std::size_t>(now);
+    setSkipped({0.0, 0.0, 0.0, monitor.pairs[i]->verdict.deviation()}, monitor.result.pairs[i]);
   }
   return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
 }
@@ -86,7 +86,7 @@ void Monitor::adopt(MonitorChange& change) {
     const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
     if (now < 0) continue;
     const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
-    next.checkers[to].take(impl_->checkers[from]);
+    next.pairs[to].swap(impl_->pairs[from]);
     next.waited[to] = impl_->waited[from];
     const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
     const WaypointSpan span = next.result.pairs[to].span;

@@ -34,12 +34,15 @@ struct Monitor::Impl {
                   PairMemory& pair_memory);
   void summarise(std::size_t end);
   ErrorSources errorOf(int pair) const;
+  PairCycle cycleOf(const CycleMotion& motion, const CycleRequest& request, PairMemory& pair_memory) const {
+    return {motion, *bodies, request, options, scene->resting.get(), pair_memory};
+  }
   void forget();
 
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::vector<ContactCollector::BodyData> body_data;
-  std::vector<PairChecker> checkers;
+  std::vector<std::shared_ptr<const MonitoredBody>> monitored_bodies;
+  MonitoredPairs pairs;
   std::unique_ptr<SweptBodies> bodies;
   std::unique_ptr<Schedule> schedule;
   std::shared_ptr<MonitorMemory> memory;

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include "pair_checker.h"
+#include "pair_cycle.h"
 
 namespace sdf_ccd {
 

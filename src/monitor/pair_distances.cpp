@@ -256,8 +256,9 @@ bool PairDistances::Impl::nearestOfPlane(std::size_t i, bool plane_is_a, const B
                                          const Isometry3d& X_WF, const Isometry3d& X_WP, double range,
                                          PairDistance& found) {
   const PlannedPair& pair = scene_->pairs[i];
-  const BoxTree& surface = scene_->bodies[plane_is_a ? pair.body_b : pair.body_a].triangles->tree;
-  const double deviation = deviationOf(*scene_, pair) + plane.deviation;
+  const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
+  const BoxTree& surface = (plane_is_a ? body_b : body_a).triangles->tree;
+  const double deviation = deviationOf(body_a, body_b) + plane.deviation;
   const Isometry3d X_FP = relativePose(X_WF, X_WP);
   const double accuracy =
       kTriangleError * surface.ball().radius + heightRounding(plane.half_space, surface, {X_FP, X_FP});
@@ -296,7 +297,7 @@ bool PairDistances::Impl::nearestOfSurfaces(std::size_t i, const Isometry3d& X_W
   const Body &body_a = scene_->bodies[pair.body_a], &body_b = scene_->bodies[pair.body_b];
   const Isometry3d X_AB = relativePose(X_WA, X_WB);
   const BoxTree &a = body_a.triangles->tree, &b = body_b.triangles->tree;
-  const double deviation = deviationOf(*scene_, pair);
+  const double deviation = deviationOf(body_a, body_b);
   const double error =
       deviation + kTriangleError * (a.ball().radius + b.ball().radius) + triangleRounding(a, b, {X_AB, X_AB});
   const double moved = measureSurfaces(i, X_AB, range + error);

@@ -1,6 +1,8 @@
 #include "pair_result.h"
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
 
 namespace sdf_ccd {
@@ -19,6 +21,15 @@ void clear(PairResult& result) {
   result.on_b_W = {};
   result.points.clear();
   result.peaks.clear();
+}
+
+void requireFinite(const ErrorSources& error) {
+  if (!std::isfinite(error.total())) throw std::runtime_error("its error bound is not finite");
+}
+
+void setClear(double clearance, PairResult& result) {
+  result.verdict = Verdict::kClear;
+  result.clearance = clearance - result.error.chord;
 }
 
 void setSkipped(const ErrorSources& error, PairResult& result) {

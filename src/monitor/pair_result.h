@@ -10,6 +10,12 @@ namespace sdf_ccd {
 /// Resets the result, but keeps its span and its allocated memory.
 void clear(PairResult& result);
 
+/// @throws std::runtime_error if an error bound is not finite.
+void requireFinite(const ErrorSources& error);
+
+/// Sets CLEAR. @param clearance  lower bound of the distance at the span's end, for the bodies at the given poses [m].
+void setClear(double clearance, PairResult& result);
+
 /// Sets the result of a pair that is clear without a test.
 void setSkipped(const ErrorSources& error, PairResult& result);
 

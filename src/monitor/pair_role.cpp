@@ -4,14 +4,12 @@
 
 namespace sdf_ccd {
 
-PairRole::PairRole(const Scene& scene, int shell_body, int field_body)
-    : shell_body_(&scene.bodies[shell_body]),
-      field_body_(&scene.bodies[field_body]),
-      motion_(scene, field_body, shell_body) {}
+PairRole::PairRole(const MonitoredBody& shell_body, const MonitoredBody& field_body, bool shell_is_a)
+    : shell_body_(&shell_body), field_body_(&field_body), motion_(*field_body.body, *shell_body.body, !shell_is_a) {}
 
-void PairRole::setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory) {
+void PairRole::setMotion(const PairMotion& pair, RoleMemory& memory) {
   memory_ = &memory;
-  motion_.take(bodies, span, memory.bounds);
+  motion_.set(pair, memory.bounds);
 }
 
 void PairRole::cut(const ChordOptions& options) {

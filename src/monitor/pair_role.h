@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "monitored_body.h"
 #include "query/shell_query.h"
 #include "relative_motion.h"
 
@@ -17,16 +18,18 @@ struct RoleMemory {
 /// One way to find the contacts of a pair: the shell of one body (frame P) against the field of the other (frame F).
 class PairRole {
  public:
-  PairRole(const Scene& scene, int shell_body, int field_body);
+  /// The bodies must outlive this. @param shell_is_a  the body with the shell is body A of the pair.
+  PairRole(const MonitoredBody& shell_body, const MonitoredBody& field_body, bool shell_is_a);
 
-  const PointShell& shell() const { return *shell_body_->shell; }
-  const SphereTree& tree() const { return *shell_body_->tree; }
-  const Body& field() const { return *field_body_; }
-  int fieldBody() const { return motion_.f(); }
+  bool shellIsA() const { return !motion_.fIsA(); }
+  const PointShell& shell() const { return *shell_body_->body->shell; }
+  GroupedShell groupedShell() const { return {shell(), *shell_body_->body->tree, shell_body_->sums}; }
+  const Body& field() const { return *field_body_->body; }
+  const std::vector<SiblingField>& siblings(std::size_t part) const { return field_body_->siblings[part]; }
 
-  /// Sets the relative motion over a part of a cycle; SweptBodies::problem() must be empty for both bodies.
+  /// Sets the relative motion over a part of a cycle.
   /// @param memory  used by this role alone as long as it has the motion.
-  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, RoleMemory& memory);
+  void setMotion(const PairMotion& pair, RoleMemory& memory);
 
   const RelativeMotion& motion() const { return motion_; }
 
@@ -38,8 +41,7 @@ class PairRole {
   const ChordPath& partPath(const BodyPart& part);
 
  private:
-  const Body* shell_body_;
-  const Body* field_body_;
+  const MonitoredBody *shell_body_, *field_body_;
   RelativeMotion motion_;
   RoleMemory* memory_ = nullptr;
 };

@@ -6,11 +6,14 @@
 
 namespace sdf_ccd {
 
-RelativeMotion::RelativeMotion(const Scene& scene, int f, int p)
-    : ball_(&scene.bodies[p].ball), is_f_in_ball_(scene.bodies[f].half_spaces.empty()), f_(f), p_(p) {}
+RelativeMotion::RelativeMotion(const Body& f, const Body& p, bool f_is_a)
+    : ball_(&p.ball), is_f_in_ball_(f.half_spaces.empty()), f_is_a_(f_is_a) {}
 
-void RelativeMotion::take(const SweptBodies& bodies, const WaypointSpan& span,
-                          std::vector<RelativeMotionBounds>& bounds) {
+void RelativeMotion::set(const PairMotion& pair, std::vector<RelativeMotionBounds>& bounds) {
+  const SweptBodies& bodies = pair.bodies;
+  const WaypointSpan& span = pair.span;
+  f_ = f_is_a_ ? pair.body_a : pair.body_b;
+  p_ = f_is_a_ ? pair.body_b : pair.body_a;
   bodies_ = &bodies;
   span_ = span;
   bounds_ = &bounds;
@@ -29,6 +32,13 @@ TwoBodyMotion RelativeMotion::motion(std::size_t step) const {
   const std::size_t k = span_.first + step;
   const std::vector<double>& times = bodies_->times();
   return {times[k], times[k + 1], bodies_->screw(f_, k), bodies_->screw(p_, k), bounds(step).acceleration};
+}
+
+double RelativeMotion::givenError(const CycleMotion& motion, const PairResult& pair) const {
+  if (motion.motion_error.empty()) return 0.0;
+  const double error_a = motion.motion_error[pair.body_a], error_b = motion.motion_error[pair.body_b];
+  const double scale = errorScaleOfF();
+  return f_is_a_ ? scale * error_a + error_b : error_a + scale * error_b;
 }
 
 double RelativeMotion::errorScaleOfF() const {

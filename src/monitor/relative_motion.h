@@ -7,18 +7,25 @@
 
 namespace sdf_ccd {
 
+/// The motion of a pair's bodies over a part of a cycle.
+struct PairMotion {
+  const SweptBodies& bodies;  ///< SweptBodies::problem() must be empty for both
+  int body_a, body_b;         ///< in the scene of `bodies`
+  WaypointSpan span;
+};
+
 /// Motion of body P relative to body F over a part of a cycle: one step per recorded interval, each with its bounds
 /// (design §3.12).
 class RelativeMotion {
  public:
-  RelativeMotion(const Scene& scene, int f, int p);
+  /// @param f_is_a  body F is body A of its pair, otherwise body P is.
+  RelativeMotion(const Body& f, const Body& p, bool f_is_a);
 
-  int f() const { return f_; }
-  int p() const { return p_; }
+  bool fIsA() const { return f_is_a_; }
 
-  /// Sets the motion; SweptBodies::problem() must be empty for both bodies.
+  /// Sets the motion.
   /// @param bounds  receives the bounds of each step; no one else may use it as long as this motion is in use.
-  void take(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds);
+  void set(const PairMotion& pair, std::vector<RelativeMotionBounds>& bounds);
 
   /// Step k lasts from recorded time k of the span to the next; k = 0 is the first.
   std::size_t steps() const { return bounds_->size(); }
@@ -38,17 +45,21 @@ class RelativeMotion {
   /// Error that the rounding of the poses adds to a distance [m].
   double poseError() const { return pose_error_; }
 
-  /// Factor from the motion error of F, which holds within its ball, to the error of its surface where P is. It exceeds
-  /// 1 for a half-space, which reaches beyond its ball: motion errors grow at most in proportion to the distance.
-  double errorScaleOfF() const;
+  /// The motion error given with a cycle's motion, for both bodies together [m]. @param pair  of these bodies.
+  double givenError(const CycleMotion& motion, const PairResult& pair) const;
 
   /// Upper bound of the displacement of P's ball's points from another pose to start() [m].
   double jumpFrom(const Isometry3d& X_FP) const { return maxDisplacement(X_FP, X_FP_start_, *ball_); }
 
  private:
+  /// Factor from the motion error of F, which holds within its ball, to the error of its surface where P is. It exceeds
+  /// 1 for a half-space, which reaches beyond its ball: motion errors grow at most in proportion to the distance.
+  double errorScaleOfF() const;
+
   const BoundingBall* ball_;  // of P
   bool is_f_in_ball_;
-  int f_, p_;
+  bool f_is_a_;
+  int f_ = -1, p_ = -1;  // in the scene of bodies_
   const SweptBodies* bodies_ = nullptr;
   WaypointSpan span_;
   const std::vector<RelativeMotionBounds>* bounds_ = nullptr;

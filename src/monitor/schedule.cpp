@@ -4,20 +4,20 @@
 
 namespace sdf_ccd {
 
-Schedule::Schedule(const Scene& scene, const std::vector<PairChecker>& checkers)
+Schedule::Schedule(const Scene& scene, const MonitoredPairs& pairs)
     : scene_(scene),
       bodies_(scene),
       table_(scene, bodies_),
       is_paired_(scene.bodies.size(), 0),
       is_whole_(scene.bodies.size(), 0) {
-  for (std::size_t i = 0; i < checkers.size(); ++i) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (!table_.holds(static_cast<int>(i))) {
       failed_.push_back(static_cast<int>(i));
       continue;
     }
-    table_.setError(static_cast<int>(i), checkers[i].bound().total());
+    table_.setError(static_cast<int>(i), pairs[i]->verdict.deviation());
   }
-  due_.reserve(checkers.size());
+  due_.reserve(pairs.size());
   for (const PlannedPair& pair : scene.pairs)
     for (const int body : {pair.body_a, pair.body_b}) is_paired_[static_cast<std::size_t>(body)] = 1;
 }
@@ -43,13 +43,12 @@ void Schedule::findWhole(const CycleMotion& motion) {
   }
 }
 
-const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double margin,
-                                           std::vector<PairChecker>& checkers) {
+const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double margin, const MonitoredPairs& pairs) {
   findWhole(motion);
   bodies_.begin(motion, is_whole_);
-  for (std::size_t i = 0; i < checkers.size() && !all_whole_; ++i) {
+  for (std::size_t i = 0; i < pairs.size() && !all_whole_; ++i) {
     if (isWhole(motion, i) || !table_.holds(static_cast<int>(i))) continue;
-    handOver(motion, static_cast<int>(i), checkers[i]);
+    handOver(motion, static_cast<int>(i), pairs[i]->verdict);
     table_.forget(static_cast<int>(i));
   }
   const std::size_t steps = motion.times.size() - 1;
@@ -58,23 +57,23 @@ const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double mar
     if (k + 1 < steps) table_.advance(bodies_);
   }
   quiet_ = table_.finish(bodies_, due_, margin);
-  for (const DuePair& due : due_) handOver(motion, due.pair, checkers[static_cast<std::size_t>(due.pair)]);
+  for (const DuePair& due : due_) handOver(motion, due.pair, pairs[static_cast<std::size_t>(due.pair)]->verdict);
   return due_;
 }
 
 /// Passes on the clearance in the table, which is that at the end of the last cycle.
-void Schedule::handOver(const CycleMotion& motion, int pair, PairChecker& checker) const {
+void Schedule::handOver(const CycleMotion& motion, int pair, PairVerdict& verdict) const {
   if (!table_.isKnown(pair)) return;
   const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
-  checker.remember(table_.clearance(pair), bodies_.last(motion, planned.body_a), bodies_.last(motion, planned.body_b));
+  verdict.remember(table_.clearance(pair), bodies_.last(motion, planned.body_a), bodies_.last(motion, planned.body_b));
 }
 
-void Schedule::settle(const CycleMotion& motion, const std::vector<PairChecker>& checkers) {
+void Schedule::settle(const CycleMotion& motion, const MonitoredPairs& pairs) {
   bodies_.end(motion, is_whole_);
   for (const DuePair& due : due_) {
     const auto pair = static_cast<std::size_t>(due.pair);
-    if (isWhole(motion, pair) && checkers[pair].isKnown()) {
-      table_.set(due.pair, checkers[pair].clearance());
+    if (isWhole(motion, pair) && pairs[pair]->verdict.isKnown()) {
+      table_.set(due.pair, pairs[pair]->verdict.clearance());
     } else {
       table_.forget(due.pair);
     }

@@ -4,25 +4,25 @@
 #include <optional>
 #include <vector>
 
+#include "check_pair.h"
 #include "clearance_table.h"
-#include "pair_checker.h"
 #include "scene_difference.h"
 
 namespace sdf_ccd {
 
 /// Determines in each cycle which pairs must be tested. The clearances of the others stay in a table, and neither these
-/// pairs nor their results are touched; the clearance of a due pair is passed to its checker.
+/// pairs nor their results are touched; the clearance of a due pair is passed to its PairVerdict.
 ///
 /// A pair is not due if its clearance at the end of the last cycle exceeds what its bodies can have moved since, its
 /// motion continues bitwise from there, and it is checked over the whole cycle. All other pairs are due, and their
-/// checkers handle delays, jumps and partial cycles pair by pair. Pairs of bodies that could not be built cost nothing.
+/// checks handle delays, jumps and partial cycles pair by pair. Pairs of bodies that could not be built cost nothing.
 class Schedule {
  public:
-  /// @param checkers  one per pair of the scene.
-  Schedule(const Scene& scene, const std::vector<PairChecker>& checkers);
+  /// @param pairs  those of the scene.
+  Schedule(const Scene& scene, const MonitoredPairs& pairs);
 
   /// Processes a cycle's motion. @param margin  as CycleRequest::margin. @return the due pairs, the most urgent first.
-  const std::vector<DuePair>& take(const CycleMotion& motion, double margin, std::vector<PairChecker>& checkers);
+  const std::vector<DuePair>& take(const CycleMotion& motion, double margin, const MonitoredPairs& pairs);
 
   /// Whether all pairs are checked over the whole cycle that was processed last.
   bool isAllWhole() const { return all_whole_; }
@@ -52,8 +52,8 @@ class Schedule {
   double motionError(int pair) const;
   double clearance(int pair) const { return table_.clearance(pair); }
 
-  /// Stores the clearances that the checkers of the due pairs have found.
-  void settle(const CycleMotion& motion, const std::vector<PairChecker>& checkers);
+  /// Stores the clearances that the checks of the due pairs have found.
+  void settle(const CycleMotion& motion, const MonitoredPairs& pairs);
 
   void forget();
 
@@ -66,7 +66,7 @@ class Schedule {
   bool isWhole(const CycleMotion& motion, std::size_t pair) const;
   void findWhole(const CycleMotion& motion);
   void spendDisplacement(const Schedule& other, const SceneDifference& difference);
-  void handOver(const CycleMotion& motion, int pair, PairChecker& checker) const;
+  void handOver(const CycleMotion& motion, int pair, PairVerdict& verdict) const;
 
   const Scene& scene_;
   BodyTwists bodies_;

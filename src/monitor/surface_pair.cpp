@@ -113,12 +113,12 @@ std::optional<Vector3d> pointInside(const Body& inner, const Body& outer, const 
 
 }  // namespace
 
-SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution)
-    : f_is_a_(isFirstF(scene.bodies[pair.body_a], scene.bodies[pair.body_b])),
-      motion_(scene, f_is_a_ ? pair.body_a : pair.body_b, f_is_a_ ? pair.body_b : pair.body_a),
-      field_(&scene.bodies[motion_.f()]),
-      shell_(&scene.bodies[motion_.p()]),
-      deviation_(deviationOf(scene, pair)),
+SurfacePair::SurfacePair(const Body& a, const Body& b, double resolution)
+    : f_is_a_(isFirstF(a, b)),
+      field_(f_is_a_ ? &a : &b),
+      shell_(f_is_a_ ? &b : &a),
+      motion_(*field_, *shell_, f_is_a_),
+      deviation_(deviationOf(a, b)),
       resolution_(resolution),
       planes_(field_->half_spaces) {
   double of_planes = 0.0;
@@ -126,10 +126,9 @@ SurfacePair::SurfacePair(const Scene& scene, const PlannedPair& pair, double res
   deviation_ += of_planes;
 }
 
-void SurfacePair::setMotion(const SweptBodies& bodies, const WaypointSpan& span,
-                            std::vector<RelativeMotionBounds>& bounds) {
+void SurfacePair::setMotion(const PairMotion& pair, std::vector<RelativeMotionBounds>& bounds) {
   constexpr int kMostPoses = 200000;  // takes some tenths of a second
-  motion_.take(bodies, span, bounds);
+  motion_.set(pair, bounds);
   poses_left_ = kMostPoses;
 }
 

@@ -15,13 +15,12 @@ namespace sdf_ccd {
 /// stay apart or certainly cross. One body may have half-spaces, instead of triangles or as well.
 class SurfacePair {
  public:
-  /// The pair must satisfy haveSurfaces().
+  /// The bodies must satisfy haveSurfaces(), and outlive this.
   /// @param resolution  surfaces closer than this may remain undecided [m].
-  SurfacePair(const Scene& scene, const PlannedPair& pair, double resolution);
+  SurfacePair(const Body& a, const Body& b, double resolution);
 
-  /// Sets the motion over a part of a cycle; SweptBodies::problem() must be empty for both bodies.
-  /// @param bounds  see RelativeMotion::take().
-  void setMotion(const SweptBodies& bodies, const WaypointSpan& span, std::vector<RelativeMotionBounds>& bounds);
+  /// Sets the motion over a part of a cycle. @param bounds  see RelativeMotion::set().
+  void setMotion(const PairMotion& pair, std::vector<RelativeMotionBounds>& bounds);
 
   /// Of the smaller body relative to the larger one, or to the half-space.
   const RelativeMotion& motion() const { return motion_; }
@@ -43,12 +42,6 @@ class SurfacePair {
 
   /// Removes the witnesses of the last query, so that answers depend on the arguments alone.
   void forget() { witness_ = closed_witness_ = {}; }
-
-  /// Takes over the witnesses of another pair of the same bodies.
-  void take(const SurfacePair& other) {
-    witness_ = other.witness_;
-    closed_witness_ = other.closed_witness_;
-  }
 
   struct Answer {
     SeparationState state = SeparationState::kOpen;
@@ -112,8 +105,8 @@ class SurfacePair {
   std::optional<ContactPoint> deepContact(double time, double margin, SeparationMemory& memory) const;
 
   bool f_is_a_;
-  RelativeMotion motion_;
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one, or F the half-space
+  RelativeMotion motion_;
   double deviation_;
   double resolution_;
   const std::vector<BodyHalfSpace>& planes_;  // of F

@@ -25,8 +25,7 @@ double fieldError(const Body& body) {
   return error;
 }
 
-ErrorSources contactBound(const Scene& scene, const PlannedPair& pair) {
-  const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+ErrorSources contactBound(const Body& a, const Body& b, const PlannedPair& pair) {
   const bool a_to_b = pair.a_shell_b_field && a.shell->size() > 0 && !b.parts.empty();
   const bool b_to_a = pair.b_shell_a_field && b.shell->size() > 0 && !a.parts.empty();
   ErrorSources bound;
@@ -47,12 +46,9 @@ bool haveSurfaces(const Body& a, const Body& b) {
   return isAgainst(a, b) || isAgainst(b, a);
 }
 
-double deviationOf(const Scene& scene, const PlannedPair& pair) {
-  const auto deviation = [&](int body) {
-    const auto& triangles = scene.bodies[body].triangles;
-    return triangles ? triangles->deviation : 0.0;
-  };
-  return deviation(pair.body_a) + deviation(pair.body_b);
+double deviationOf(const Body& a, const Body& b) {
+  const auto deviation = [](const Body& body) { return body.triangles ? body.triangles->deviation : 0.0; };
+  return deviation(a) + deviation(b);
 }
 
 double greatestDepth(const Body& body) {
@@ -62,16 +58,15 @@ double greatestDepth(const Body& body) {
   return static_cast<double>(half) + static_cast<double>(root.radius[0]) + body.triangles->deviation;
 }
 
-double hiddenDepth(const Scene& scene, const PlannedPair& pair) {
-  const auto depth = [&](int surface, int solid, bool has_shell) {
-    if (!scene.bodies[surface].half_spaces.empty()) return 0.0;  // only the other body's depth in it counts
-    const PointShell& shell = *scene.bodies[surface].shell;
-    const bool covers = has_shell && shell.size() > 0 && !scene.bodies[solid].parts.empty();
-    const double deepest = greatestDepth(scene.bodies[solid]);
+double hiddenDepth(const Body& a, const Body& b, const PlannedPair& pair) {
+  const auto depth = [](const Body& surface, const Body& solid, bool has_shell) {
+    if (!surface.half_spaces.empty()) return 0.0;  // only the other body's depth in it counts
+    const PointShell& shell = *surface.shell;
+    const bool covers = has_shell && shell.size() > 0 && !solid.parts.empty();
+    const double deepest = greatestDepth(solid);
     return covers ? std::min(shell.covering_radius, deepest) : deepest;
   };
-  return std::max(depth(pair.body_a, pair.body_b, pair.a_shell_b_field),
-                  depth(pair.body_b, pair.body_a, pair.b_shell_a_field));
+  return std::max(depth(a, b, pair.a_shell_b_field), depth(b, a, pair.b_shell_a_field));
 }
 
 }  // namespace sdf_ccd

@@ -11,7 +11,8 @@ double fieldError(const Body& body);
 
 /// Error bound of the contacts that shells find in fields, before any motion: the field's error and the gap between
 /// points. Zero if the pair has no fields and shells.
-ErrorSources contactBound(const Scene& scene, const PlannedPair& pair);
+/// @param pair  of these bodies: tells whose shells are used.
+ErrorSources contactBound(const Body& a, const Body& b, const PlannedPair& pair);
 
 /// Whether there are surfaces that decide a pair: the triangles of both bodies, one of which may have a half-space
 /// instead or as well.
@@ -21,7 +22,7 @@ inline bool haveSurfaces(const Scene& scene, const PlannedPair& pair) {
 }
 
 /// Upper bound of the distance between the triangles and the true surfaces, both bodies together [m].
-double deviationOf(const Scene& scene, const PlannedPair& pair);
+double deviationOf(const Body& a, const Body& b);
 
 /// Upper bound of the depth of points inside a body [m].
 double greatestDepth(const Body& body);
@@ -30,6 +31,6 @@ double greatestDepth(const Body& body);
 /// errors of fields and motion. It exceeds the gap of contactBound(), which bounds only how far points are from where
 /// the surfaces first touch: a rod goes through a plate that is thinner than the distance of the rod's points, and the
 /// plate's surface is then as deep in the rod as the plate's points, or the rod's size, allow.
-double hiddenDepth(const Scene& scene, const PlannedPair& pair);
+double hiddenDepth(const Body& a, const Body& b, const PlannedPair& pair);
 
 }  // namespace sdf_ccd

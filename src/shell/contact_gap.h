@@ -22,7 +22,7 @@ namespace sdf_ccd {
 ///
 /// Radii are about the points as shells hold them, so the gap includes their rounding. A rounded point may be outside
 /// of its surface, though, by up to PointShell::position_error. Its depth proves a contact only if it is deeper than
-/// that, and it may be as far outside of a body that its own body is inside of: PairRoles adds it to the poses' error.
+/// that, and it may be as far outside of a body that its own body is inside of: PairForce adds it to the poses' error.
 ///
 /// Without a shell of B, A's points must cover all of A, unless B is a plane, which has no edges.
 double contactGap(const PointShell& a, const PointShell& b);

@@ -41,9 +41,10 @@ void setTotals(Scene& scene) {
     ++scene.reports[pair.body_a].pairs;
     ++scene.reports[pair.body_b].pairs;
     if (!haveSurfaces(scene, pair)) continue;  // one of the bodies was not built
-    ErrorSources of_contacts = contactBound(scene, pair);
+    const Body &a = scene.bodies[pair.body_a], &b = scene.bodies[pair.body_b];
+    ErrorSources of_contacts = contactBound(a, b, pair);
     of_contacts.chord = scene.motion_margin;
-    const ErrorSources bound{0.0, scene.motion_error, 0.0, deviationOf(scene, pair)};
+    const ErrorSources bound{0.0, scene.motion_error, 0.0, deviationOf(a, b)};
     if (isLarger(of_contacts, scene.contact_bound)) scene.contact_bound = of_contacts;
     for (ErrorSources* largest : {&scene.reports[pair.body_a].bound, &scene.reports[pair.body_b].bound, &scene.bound})
       if (isLarger(bound, *largest)) *largest = bound;
