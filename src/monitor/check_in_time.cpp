@@ -29,7 +29,7 @@ std::size_t Monitor::Impl::orderQueue(const CycleMotion& motion) {
   queue = schedule->due();
   const auto unknown =
       std::partition(queue.begin(), queue.end(), [&](const DuePair& due) { return isMotionKnown(motion, due); });
-  const auto waitedFor = [&](const DuePair& due) { return waited[static_cast<std::size_t>(due.pair)]; };
+  const auto waitedFor = [&](const DuePair& due) { return known.pairs[static_cast<std::size_t>(due.pair)]->waited; };
   std::sort(queue.begin(), unknown, [&](const DuePair& a, const DuePair& b) {
     if (waitedFor(a) != waitedFor(b)) return waitedFor(a) > waitedFor(b);
     return a.left != b.left ? a.left < b.left : a.pair < b.pair;
@@ -47,20 +47,20 @@ void Monitor::Impl::checkUntil(Clock::time_point until, const DuePair& due, cons
     checkCancelled();
     pair_memory.deadline = until;
     try {
-      checkPair(cycle_of_pair, *pairs[i], result.pairs[i]);
+      checkPair(cycle_of_pair, *known.pairs[i], result.pairs[i]);
       is_decided = true;
     } catch (const Cancelled&) {
       checkCancelled();
     }
   }
-  if (!is_decided) postponePair(cycle_of_pair, due.left, *pairs[i], result.pairs[i]);
+  if (!is_decided) postponePair(cycle_of_pair, due.left, *known.pairs[i], result.pairs[i]);
 }
 
 /// All threads take pairs from one queue, so that the most urgent ones are done first: verdicts, then what is missing
 /// of contacts. The first pair has some time in any case, so that each is tested some time.
 void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& request, Clock::time_point until) {
   constexpr auto kSomeTime = std::chrono::microseconds(300);
-  const std::size_t known = orderQueue(motion);
+  const std::size_t with_motion = orderQueue(motion);
   const auto untilFor = [&](std::size_t k) { return k > 0 ? until : std::max(until, Clock::now() + kSomeTime); };
   const auto usedAll = [&](double seconds) {
     return seconds > 0.5 * std::max(request.max_time, std::chrono::duration<double>(kSomeTime).count());
@@ -82,24 +82,26 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
     const double begin = k == 0 ? threadSeconds() : 0.0;
     checkUntil(untilFor(k), queue[k], motion, request, pair_memory);
     if (result.pairs[i].incomplete) ++incomplete;
-    if (k >= known || result.pairs[i].incomplete) return;
+    if (k >= with_motion || result.pairs[i].incomplete) return;
     const bool in_vain = k == 0 && result.pairs[i].postponed && usedAll(threadSeconds() - begin);
-    waited[i] = in_vain ? -kAfterVain : result.pairs[i].postponed ? waited[i] + 1 : 0;
+    int& waited = known.pairs[i]->waited;
+    waited = in_vain ? -kAfterVain : result.pairs[i].postponed ? waited + 1 : 0;
   });
   if (incomplete == 0) return;
   std::atomic<int> before{0};
   forEachInQueue([&](std::size_t /*k*/, std::size_t i, PairMemory& pair_memory) {
     PairResult& pair = result.pairs[i];
-    if (!pair.incomplete || !pairs[i]->is_to_complete) return;
+    if (!pair.incomplete || !known.pairs[i]->is_to_complete) return;
     const bool is_first = before++ == 0;
     const Clock::time_point end = untilFor(is_first ? 0 : 1);
     if (Clock::now() < end) {
       checkCancelled();
       pair_memory.deadline = end;
-      completePair(cycleOf(motion, request, pair_memory), *pairs[i], pair);
+      completePair(cycleOf(motion, request, pair_memory), *known.pairs[i], pair);
       if (pair.incomplete) checkCancelled();
     }
-    waited[i] = pair.incomplete && !is_first ? waited[i] + 1 : 0;
+    int& waited = known.pairs[i]->waited;
+    waited = pair.incomplete && !is_first ? waited + 1 : 0;
   });
 }
 

@@ -23,6 +23,7 @@ struct MonitoredPair {
   PairMeasure measure;
   std::optional<Isometry3d> X_AB_as_it_came;  ///< where the bodies rest, and the answer depends on the motion before
   bool is_to_complete = false;                ///< completePair() is to follow checkPair()
+  int waited = 0;  ///< cycles in which it was left over since its last test; negative after a search in vain
 
   void forget() {
     verdict.forget();
@@ -31,8 +32,8 @@ struct MonitoredPair {
 };
 using MonitoredPairs = std::vector<std::shared_ptr<MonitoredPair>>;
 
-/// Checks a pair over `result.span`; if that is empty, what is known stays. Does not throw if a body's poses cannot be
-/// followed: the pair is then NOT_CHECKED.
+/// Checks a pair over `result.span`; if that is empty, what is known is neither read nor changed. Does not throw if a
+/// body's poses cannot be followed: the pair is then NOT_CHECKED.
 ///
 /// The surfaces decide. If the pair is not clear, and contacts are wanted, the shells find them, with their forces;
 /// then the surfaces measure them. Where the surfaces are known to cross, that is left to completePair(): the result is

@@ -30,25 +30,27 @@ std::shared_ptr<MonitorMemory> makeMonitorMemory() {
 }
 
 Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
-                    std::shared_ptr<MonitorMemory> shared_memory)
+                    std::shared_ptr<MonitorMemory> shared_memory, Known shared)
     : scene(std::move(of_scene)),
       options(with_options),
+      known(std::move(shared)),
       bodies(std::make_unique<SweptBodies>(*scene)),
       memory(std::move(shared_memory)) {
-  for (std::size_t b = 0; b < scene->bodies.size(); ++b)
-    monitored_bodies.push_back(std::make_shared<const MonitoredBody>(scene->bodies.shared(b)));
-  pairs.reserve(scene->pairs.size());
-  result.pairs.reserve(scene->pairs.size());
-  for (const PlannedPair& pair : scene->pairs) {
-    pairs.push_back(std::make_shared<MonitoredPair>(monitored_bodies[static_cast<std::size_t>(pair.body_a)],
-                                                    monitored_bodies[static_cast<std::size_t>(pair.body_b)], pair,
-                                                    options.max_error));
-    PairResult& of_pair = result.pairs.emplace_back();
-    of_pair.body_a = pair.body_a;
-    of_pair.body_b = pair.body_b;
+  known.bodies.resize(scene->bodies.size());
+  for (std::size_t b = 0; b < known.bodies.size(); ++b)
+    if (!known.bodies[b]) known.bodies[b] = std::make_shared<const MonitoredBody>(scene->bodies.shared(b));
+  const std::size_t count = scene->pairs.size();
+  known.pairs.resize(count);
+  result.pairs.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PlannedPair& pair = scene->pairs[i];
+    const auto &a = known.bodies[static_cast<std::size_t>(pair.body_a)],
+               &b = known.bodies[static_cast<std::size_t>(pair.body_b)];
+    if (!known.pairs[i]) known.pairs[i] = std::make_shared<MonitoredPair>(a, b, pair, options.max_error);
+    result.pairs[i].body_a = pair.body_a;
+    result.pairs[i].body_b = pair.body_b;
   }
-  const std::size_t count = pairs.size();
-  schedule = std::make_unique<Schedule>(*scene, pairs);
+  schedule = std::make_unique<Schedule>(*scene, known.pairs);
   is_failed.assign(count, 0);
   for (const int pair : schedule->failed()) {
     const PlannedPair& planned = scene->pairs[static_cast<std::size_t>(pair)];
@@ -62,13 +64,24 @@ Monitor::Impl::Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions&
   due_in_cycle.assign(count, 0);
   last_due.reserve(count);
   queue.reserve(count);
-  waited.assign(count, 0);
   result.not_clear.reserve(count);
   shape.pairs = count;
   for (const Body& body : scene->bodies) {
     shape.bodies.push_back(body.name);
     shape.without_poses.push_back(!body.failure.empty());
   }
+}
+
+Monitor::Impl::Known Monitor::Impl::knownOf(const Scene& next, const SceneDifference& difference) const {
+  Known shared;
+  for (const int before : difference.bodiesBefore())
+    shared.bodies.push_back(before < 0 ? nullptr : known.bodies[static_cast<std::size_t>(before)]);
+  shared.pairs.resize(next.pairs.size());
+  for (std::size_t i = 0; i < known.pairs.size(); ++i) {
+    const int now = difference.pairsNow()[i];
+    if (now >= 0) shared.pairs[static_cast<std::size_t>(now)] = known.pairs[i];
+  }
+  return shared;
 }
 
 Monitor::Monitor(std::shared_ptr<const Scene> scene, const MonitorOptions& options,
@@ -93,7 +106,14 @@ Monitor::Monitor(std::vector<Body> bodies, const MonitorOptions& options)
 Monitor::~Monitor() = default;
 
 const CycleResult& Monitor::run(const CycleMotion& motion, const CycleRequest& request) {
-  return impl_->run(motion, request);
+  validate(motion, impl_->shape, "cycle motion");
+  requireMargin(request.margin);
+  try {
+    return impl_->run(motion, request);
+  } catch (...) {
+    reset();
+    throw;
+  }
 }
 
 /// When the cycle's time is used up; never, if it is longer than the clock counts.
@@ -105,19 +125,12 @@ Monitor::Impl::Clock::time_point Monitor::Impl::endOf(const CycleRequest& reques
 
 const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = Clock::now();
-  validate(motion, shape, "cycle motion");
-  requireMargin(request.margin);
-  try {
-    schedule->take(motion, request.margin, pairs);
-    takeSpans(motion);
-    takeSkipped(request);
-    checkDue(motion, request, start);
-    measureSoon(motion, endOf(request, start));
-    schedule->settle(motion, pairs);
-  } catch (...) {
-    forget();
-    throw;
-  }
+  schedule->take(motion, request.margin, known.pairs);
+  takeSpans(motion);
+  takeSkipped(request);
+  checkDue(motion, request, start);
+  measureSoon(motion, endOf(request, start));
+  schedule->settle(motion, known.pairs);
   summarise(motion.times.size() - 1);
   result.run_time = secondsSince(start);
   return result;
@@ -141,12 +154,12 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
     if (due_in_cycle[i] != cycle && !is_failed[i]) setSkipped(errorOf(static_cast<int>(i)), result.pairs[i]);
   };
   for (const int pair : last_due) setQuiet(static_cast<std::size_t>(pair));
-  for (std::size_t i = 0; i < pairs.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
+  for (std::size_t i = 0; i < known.pairs.size() && are_of_cycle && !request.skipped_pairs; ++i) setQuiet(i);
   are_of_cycle = request.skipped_pairs;
   last_due.clear();
   for (const DuePair& due : schedule->due()) last_due.push_back(due.pair);
   if (!request.skipped_pairs) return;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  for (std::size_t i = 0; i < known.pairs.size(); ++i) {
     if (due_in_cycle[i] == cycle || is_failed[i]) continue;
     result.pairs[i].error = errorOf(static_cast<int>(i));
     result.pairs[i].clearance = schedule->clearance(static_cast<int>(i)) - schedule->motionError(static_cast<int>(i));
@@ -155,7 +168,7 @@ void Monitor::Impl::takeSkipped(const CycleRequest& request) {
 
 /// For a pair that is not due.
 ErrorSources Monitor::Impl::errorOf(int pair) const {
-  return {0.0, schedule->motionError(pair), 0.0, pairs[static_cast<std::size_t>(pair)]->verdict.deviation()};
+  return {0.0, schedule->motionError(pair), 0.0, known.pairs[static_cast<std::size_t>(pair)]->verdict.deviation()};
 }
 
 void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const CycleRequest& request,
@@ -164,8 +177,8 @@ void Monitor::Impl::check(const DuePair& due, const CycleMotion& motion, const C
   const auto i = static_cast<std::size_t>(due.pair);
   const PairTimes::Measure measure(request.times, due.pair);
   const PairCycle cycle_of_pair = cycleOf(motion, request, pair_memory);
-  checkPair(cycle_of_pair, *pairs[i], result.pairs[i]);
-  completePair(cycle_of_pair, *pairs[i], result.pairs[i]);
+  checkPair(cycle_of_pair, *known.pairs[i], result.pairs[i]);
+  completePair(cycle_of_pair, *known.pairs[i], result.pairs[i]);
   if (result.pairs[i].incomplete) checkCancelled();
 }
 
@@ -205,7 +218,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
   std::unique_ptr<PairMemory> taken = memory->take();
   std::optional<double> clearance;
   try {
-    clearance = measureClearance(cycleOf(motion, {}, *taken), *pairs[i], result.pairs[i]);
+    clearance = measureClearance(cycleOf(motion, {}, *taken), *known.pairs[i], result.pairs[i]);
   } catch (const std::exception&) {  // the cycle's results are complete without it
   } catch (const Cancelled&) {
   }
@@ -228,8 +241,7 @@ void Monitor::Impl::summarise(std::size_t end) {
 
 void Monitor::Impl::forget() {
   schedule->forget();
-  std::fill(waited.begin(), waited.end(), 0);
-  for (const auto& pair : pairs) pair->forget();
+  for (const auto& pair : known.pairs) pair->forget();
 }
 
 const CycleResult& Monitor::check(const std::vector<std::vector<Isometry3d>>& X_WB, double duration,

@@ -15,14 +15,13 @@ constexpr std::chrono::milliseconds kLongestTest(200);
 
 }  // namespace
 
-/// The monitor of the next scene, and what it takes over from the present one.
+/// The monitor of the next scene. It shares what is known of the pairs that the present one has too.
 struct MonitorChange::Impl {
-  std::unique_ptr<Monitor::Impl> monitor;
   std::shared_ptr<const Scene> before;
   SceneDifference difference;
+  std::unique_ptr<Monitor::Impl> monitor;
 
-  void testNewPairs(CycleMotion motion);
-  void testInTime(CycleMotion motion);
+  bool testNewPairs(CycleMotion motion);
 };
 
 MonitorChange::MonitorChange(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -32,35 +31,37 @@ const SceneDifference& MonitorChange::difference() const {
   return impl_->difference;
 }
 
-void MonitorChange::Impl::testNewPairs(CycleMotion motion) {
+/// Whoever prepares a change may hold up others, and a single pair can take long: then the next cycle has to test them.
+/// @return whether that took not too long.
+bool MonitorChange::Impl::testNewPairs(CycleMotion motion) {
   const std::vector<int>& new_pairs = difference.newPairs();
-  if (new_pairs.empty() || motion.times.empty()) return;
+  if (new_pairs.empty() || motion.times.empty()) return true;
   motion.spans.assign(monitor->result.pairs.size(), WaypointSpan());
   for (const int pair : new_pairs) motion.spans[static_cast<std::size_t>(pair)] = {0, motion.times.size() - 1};
+  validate(motion, monitor->shape, "cycle motion");
   CycleRequest request{false, 0, false, false};
   request.max_time = kTestTime;
-  monitor->run(motion, request);
-  monitor->last_due = new_pairs;  // not the others, which were delayed
-}
-
-/// Whoever prepares a change may hold up others, and a single pair can take long: then the next cycle has to.
-void MonitorChange::Impl::testInTime(CycleMotion motion) {
   try {
     const CancelScope scope(CancelRequest::Clock::now() + kLongestTest);
-    testNewPairs(std::move(motion));
+    monitor->run(motion, request);
   } catch (const Cancelled&) {
     checkCancelled();
-    monitor = std::make_unique<Monitor::Impl>(monitor->scene, monitor->options, monitor->memory);
+    return false;
   }
+  monitor->last_due = new_pairs;  // not the others, which were delayed
+  return true;
 }
 
 std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> next, const CycleMotion* likely) const {
   if (!next) throw std::invalid_argument("monitor: no scene");
-  auto made = std::make_unique<Impl>(std::move(next), impl_->options, impl_->memory);
-  const Scene& scene = *made->scene;
-  auto change =
-      std::make_unique<MonitorChange::Impl>(MonitorChange::Impl{std::move(made), impl_->scene, {*impl_->scene, scene}});
-  if (likely) change->testInTime(*likely);
+  auto change = std::make_unique<MonitorChange::Impl>(
+      MonitorChange::Impl{impl_->scene, SceneDifference(*impl_->scene, *next), nullptr});
+  const auto make = [&] {
+    change->monitor =
+        std::make_unique<Impl>(next, impl_->options, impl_->memory, impl_->knownOf(*next, change->difference));
+  };
+  make();
+  if (likely && !change->testNewPairs(*likely)) make();
   Impl& monitor = *change->monitor;
 
   // Common pairs that are not tested in the next cycle are clear; all others are set by their tests.
@@ -71,7 +72,7 @@ std::unique_ptr<MonitorChange> Monitor::prepare(std::shared_ptr<const Scene> nex
   for (const int now : change->difference.pairsNow()) {
     if (now < 0 || monitor.is_failed[static_cast<std::size_t>(now)]) continue;
     const auto i = static_cast<std::size_t>(now);
-    setSkipped({0.0, 0.0, 0.0, monitor.pairs[i]->verdict.deviation()}, monitor.result.pairs[i]);
+    setSkipped({0.0, 0.0, 0.0, monitor.known.pairs[i]->verdict.deviation()}, monitor.result.pairs[i]);
   }
   return std::unique_ptr<MonitorChange>(new MonitorChange(std::move(change)));
 }
@@ -81,13 +82,10 @@ void Monitor::adopt(MonitorChange& change) {
   if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
   Impl& next = *made.monitor;
   next.schedule->take(*impl_->schedule, made.difference);
-  // For pairs that are not due, the checker's other data would only make the next test faster.
   for (const int pair : impl_->last_due) {
     const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
     if (now < 0) continue;
     const auto from = static_cast<std::size_t>(pair), to = static_cast<std::size_t>(now);
-    next.pairs[to].swap(impl_->pairs[from]);
-    next.waited[to] = impl_->waited[from];
     const int body_a = next.result.pairs[to].body_a, body_b = next.result.pairs[to].body_b;
     const WaypointSpan span = next.result.pairs[to].span;
     std::swap(next.result.pairs[to], impl_->result.pairs[from]);

@@ -16,9 +16,20 @@ namespace sdf_ccd {
 struct Monitor::Impl {
   using Clock = std::chrono::steady_clock;
 
-  Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
-       std::shared_ptr<MonitorMemory> shared_memory);
+  /// What is known of the bodies and pairs of a scene; null for those of which nothing is known.
+  struct Known {
+    std::vector<MonitoredPair::SharedBody> bodies;
+    MonitoredPairs pairs;
+  };
 
+  Impl(std::shared_ptr<const Scene> of_scene, const MonitorOptions& with_options,
+       std::shared_ptr<MonitorMemory> shared_memory, Known shared = {});
+
+  /// What the monitor of the next scene shares with this one.
+  Known knownOf(const Scene& next, const SceneDifference& difference) const;
+
+  /// Touches only what is known of pairs with a span. If it throws, what it has tested is to be forgotten.
+  /// @param motion  valid.
   const CycleResult& run(const CycleMotion& motion, const CycleRequest& request);
   void takeSpans(const CycleMotion& motion);
   void takeSkipped(const CycleRequest& request);
@@ -41,18 +52,15 @@ struct Monitor::Impl {
 
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::vector<std::shared_ptr<const MonitoredBody>> monitored_bodies;
-  MonitoredPairs pairs;
+  Known known;
   std::unique_ptr<SweptBodies> bodies;
   std::unique_ptr<Schedule> schedule;
   std::shared_ptr<MonitorMemory> memory;
   MotionShape shape;
   CycleResult result;
-  std::vector<char> is_failed;  // per pair: a body of it could not be built; its result never changes
-  std::vector<int> last_due;    // pairs
-  std::vector<DuePair> queue;   // pairs to test, those that have waited longest first
-  std::vector<int> waited;      // per pair: in how many cycles it was left over since its last test; negative
-                                // after a search in vain
+  std::vector<char> is_failed;              // per pair: a body of it could not be built; its result never changes
+  std::vector<int> last_due;                // pairs
+  std::vector<DuePair> queue;               // pairs to test, those that have waited longest first
   std::vector<std::uint64_t> due_in_cycle;  // per pair: the last cycle in which it was due
   std::uint64_t cycle = 0;
   bool are_of_cycle = false;  // results of pairs that are not due hold the clearance and error of the last cycle

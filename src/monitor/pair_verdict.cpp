@@ -1,5 +1,7 @@
 #include "pair_verdict.h"
 
+#include <utility>
+
 #include "pose_rounding.h"
 #include "scene/pair_bound.h"
 
@@ -65,6 +67,10 @@ void PairVerdict::postpone(double clearance) {
   clearance_ = clearance;
   outside_ = false;
   inside_.reset();
+}
+
+double PairVerdict::moveClearanceOut() {
+  return std::exchange(clearance_, kUnknown);
 }
 
 void PairVerdict::remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB) {

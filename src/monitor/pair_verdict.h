@@ -48,7 +48,10 @@ class PairVerdict {
   /// Sets the clearance of a pair that is not decided over a motion; if negative, its amount bounds the overlap [m].
   void postpone(double clearance);
 
-  /// Sets the clearance at other poses, if the caller has kept it.
+  /// Hands the clearance over to the caller, who keeps it until he calls remember(); it is not known here meanwhile.
+  double moveClearanceOut();
+
+  /// Sets the clearance at the poses at which the caller has kept it.
   void remember(double clearance, const Isometry3d& X_WA, const Isometry3d& X_WB);
 
   /// The same for bodies whose balls are apart there.

@@ -73,7 +73,7 @@ void Schedule::settle(const CycleMotion& motion, const MonitoredPairs& pairs) {
   for (const DuePair& due : due_) {
     const auto pair = static_cast<std::size_t>(due.pair);
     if (isWhole(motion, pair) && pairs[pair]->verdict.isKnown()) {
-      table_.set(due.pair, pairs[pair]->verdict.clearance());
+      table_.set(due.pair, pairs[pair]->verdict.moveClearanceOut());
     } else {
       table_.forget(due.pair);
     }

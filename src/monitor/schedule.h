@@ -52,7 +52,7 @@ class Schedule {
   double motionError(int pair) const;
   double clearance(int pair) const { return table_.clearance(pair); }
 
-  /// Stores the clearances that the checks of the due pairs have found.
+  /// Moves the clearances that the checks of the due pairs have found into the table, where the bodies are followed.
   void settle(const CycleMotion& motion, const MonitoredPairs& pairs);
 
   void forget();

@@ -194,6 +194,36 @@ TEST(World, ChangesAreAsAMonitorBuiltAnew) {
   EXPECT_GT(skipped, 150);
 }
 
+/// Changes share what is known of pairs with the running monitor: testing them in advance must not touch it.
+TEST(World, APreparedChangeDoesNotAlterTheCycles) {
+  ChangingWorld world(4);
+  for (int i = 0; i < 8; ++i) world.change();
+  WorldEditor editor(coarse());
+  const auto snapshot = editor.next(world.description());
+  SceneDescription more = world.description();
+  more.bodies.push_back(body("late", Primitive(Sphere{0.3}), true));
+  const auto next = editor.next(more);
+  Monitor alone(snapshot->scene, soft()), prepared(snapshot->scene, soft());
+  int contacts = 0, skipped = 0;
+  for (int cycle = 0; cycle < 60; ++cycle) {
+    const CycleMotion motion = world.motion();
+    const CycleResult expected = alone.run(motion, {}), found = prepared.run(motion, {});
+    for (std::size_t p = 0; p < expected.pairs.size(); ++p) {
+      ASSERT_EQ(found.pairs[p].verdict, expected.pairs[p].verdict) << cycle;
+      ASSERT_EQ(found.pairs[p].skipped, expected.pairs[p].skipped) << cycle;
+      ASSERT_EQ(found.pairs[p].clearance, expected.pairs[p].clearance) << cycle;
+    }
+    contacts += expected.verdict == Verdict::kContact;
+    skipped += expected.skipped;
+    CycleMotion likely = world.rest(true);
+    likely.X_WB.push_back({translation({0, 0, 0.1})});
+    const auto change = prepared.prepare(next->scene, &likely);
+    if (cycle % 20 == 19) prepared.reset(), alone.reset();
+  }
+  EXPECT_GT(contacts, 5);
+  EXPECT_GT(skipped, 50);
+}
+
 /// The link, which does not rotate, moves from one place to another; all objects of the world rest.
 CycleMotion linkMotion(const SceneDescription& description, const Vector3d& from, const Vector3d& to) {
   CycleMotion motion;
