@@ -51,7 +51,7 @@ void PairVerdict::findContainment() {
   const RelativeMotion& motion = surfaces_->motion();
   if (undecided_ && motion.jumpFrom(undecided_->X_FP) < kSmall * surfaces_->size()) return;
   const int attempt = undecided_ ? undecided_->attempts : 0;
-  const SurfacePair::Containment found = surfaces_->containment(motion.end(), attempt);
+  const Containment found = surfaces_->containment(motion.end(), attempt);
   outside_ = found.excluded;
   inside_ = found.inside;
   undecided_.reset();

@@ -75,10 +75,10 @@ class PairVerdict {
   void findContainment();
 
   std::optional<SurfacePair> surfaces_;
-  bool outside_ = false;                            // neither body has a component wholly inside the other
-  std::optional<SurfacePair::InsidePoint> inside_;  // the surfaces are apart
-  double clearance_ = kUnknown;                     // [m]
-  Isometry3d X_FP_ = Isometry3d::Identity();        // valid if one of these is known
+  bool outside_ = false;                      // neither body has a component wholly inside the other
+  std::optional<InsidePoint> inside_;         // the surfaces are apart
+  double clearance_ = kUnknown;               // [m]
+  Isometry3d X_FP_ = Isometry3d::Identity();  // valid if one of these is known
   std::optional<Undecided> undecided_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/infinity.h"
-#include "mesh/triangle_tree.h"
 #include "motion/time_at.h"
 #include "pose_rounding.h"
 #include "scene/pair_bound.h"
@@ -13,102 +12,10 @@
 namespace sdf_ccd {
 namespace {
 
-/// Whether a point is certainly outside the tree's root box; in the tree's frame.
-bool isOutsideBox(const BoxTree& tree, const Vector3d& p) {
-  const BoxTree::Node& root = tree.node(tree.root().node);
-  const Vector3d q = p - tree.origin() - Vector3d(root.center[0][0], root.center[1][0], root.center[2][0]);
-  const double rounding = kBoxRounding * (tree.ball().radius + q.norm());
-  for (int i = 0; i < 3; ++i) {
-    const double along = q.dot(Vector3d(root.axis[i][0][0], root.axis[i][1][0], root.axis[i][2][0]));
-    if (std::abs(along) > root.half[i][0] + root.radius[0] + rounding) return true;
-  }
-  return false;
-}
-
-/// Whether a point off the body's surface is certainly outside its solid, frame B. Fields are not asked: in a narrow
-/// recess or cavity their errors exceed the gap.
-bool isOutsideSolid(const Body& body, const Vector3d& p) {
-  if (isOutsideBox(body.triangles->closedTree(), p)) return true;
-  return body.doubtful ? body.doubtful->seesOutside(p) : body.triangles->isOutside(p);
-}
-
-/// Whether no component of `inner` lies inside `outer`, given that their surfaces are apart.
-/// @param attempt  see SurfacePair::containment().
-/// @param inside   set to a point of `inner` that is certainly inside `outer`, if one is found; frame I.
-bool componentsAreOutside(const Body& inner, const Body& outer, const Isometry3d& X_OI, int attempt,
-                          std::optional<Vector3d>& inside) {
-  const auto is_outside = [&](const std::vector<Vector3d>& corners) {
-    const std::size_t count = attempt == 0 ? corners.size() : 1;
-    for (std::size_t i = 0; i < count; ++i) {
-      checkCancelled();
-      const Vector3d& p_I = corners[(attempt + i) % corners.size()];
-      const Vector3d p = X_OI * p_I;
-      if (isOutsideSolid(outer, p)) return true;
-      if (!outer.inside_is_doubtful && outer.triangles->isInside(p)) {
-        inside = p_I;
-        return false;
-      }
-    }
-    return false;
-  };
-  const auto& components = inner.triangles->components;
-  return std::all_of(components.begin(), components.end(), is_outside);
-}
-
 /// Whether the first of two bodies is body F.
 bool isFirstF(const Body& a, const Body& b) {
   if (a.half_spaces.empty() && b.half_spaces.empty()) return a.ball.radius >= b.ball.radius;
   return !a.half_spaces.empty();
-}
-
-/// Calls visit(centroid) for triangles of the tree that may come within the ball, until it returns true.
-template <class Visit>
-bool forTrianglesNear(const BoxTree& tree, const BoundingBall& ball, const Visit& visit) {
-  std::vector<std::int32_t> nodes{tree.root().node};
-  while (!nodes.empty()) {
-    const BoxTree::Node& node = tree.node(nodes.back());
-    nodes.pop_back();
-    for (std::int32_t i = 0; i < node.count; ++i) {
-      const Vector3d center = tree.origin() + Vector3d(node.center[0][i], node.center[1][i], node.center[2][i]);
-      if ((center - ball.center).norm() > ball.radius + double(node.reach[i]) + double(node.radius[i])) continue;
-      if (!BoxTree::isTriangle(node.below[i])) {
-        nodes.push_back(node.below[i]);
-        continue;
-      }
-      const CornerPointers corners = tree.corners(BoxTree::triangleOf(node.below[i]));
-      if (visit(Vector3d((*corners[0] + *corners[1] + *corners[2]) / 3.0))) return true;
-    }
-  }
-  return false;
-}
-
-/// A point of `inner`'s surface inside `outer`, by more than `margin`; frame I.
-std::optional<Vector3d> pointInside(const Body& inner, const Body& outer, const Isometry3d& X_OI, double margin,
-                                    SeparationMemory& memory) {
-  constexpr int kMaxPoints = 6;  // some tens of microseconds
-  if (outer.inside_is_doubtful || !outer.triangles || !inner.triangles) return {};
-  const Isometry3d X_IO = X_OI.inverse();
-  std::optional<Vector3d> found;
-  int points = 0;
-  forTrianglesNear(inner.triangles->tree, {X_IO * outer.ball.center, outer.ball.radius}, [&](const Vector3d& p_I) {
-    const Vector3d p = X_OI * p_I;
-    if (isOutsideBox(outer.triangles->closedTree(), p)) return false;
-    checkCancelled();
-    if (outer.triangles->isInside(p)) {
-      const BoxTree point({{{p, p, p}, 0.0}});
-      SeparationOptions options;
-      options.margin = margin + kPoseEpsilon * (p.norm() + X_OI.translation().norm());
-      options.resolution = 0.1 * margin;
-      SeparationWitness witness;
-      const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
-      const TwoBodyMotion at_rest{0.0, 1.0, rest, rest, 0.0};
-      if (separation(outer.triangles->closedTree(), point, at_rest, options, witness, memory).state ==
-          SeparationState::kApart)
-        found = p_I;
-    }
-    return found.has_value() || ++points >= kMaxPoints;
-  });
-  return found;
 }
 
 }  // namespace
@@ -343,23 +250,9 @@ std::optional<ContactPoint> SurfacePair::findContact(double motion_error, Separa
   if (motion_.travel() > resolution_)
     for (const double share : {0.0, 0.5, 0.25, 0.75})
       if (auto crossing = at(share)) return crossing;
-  return deepContact(end, motion_error + deviation_ + kTimeRounding * motion_.reach(), memory);
-}
-
-std::optional<ContactPoint> SurfacePair::deepContact(double time, double margin, SeparationMemory& memory) const {
-  const auto [step, share] = stepAt(time);
-  const TwoBodyMotion motion = motion_.motion(step);
-  const Isometry3d X_WF = motion.X_WF.pose(share), X_WP = motion.X_WP.pose(share);
-  const Isometry3d X_FP = relativePose(X_WF, X_WP);
-  const std::optional<Vector3d> p_P = pointInside(*shell_, *field_, X_FP, margin, memory);
-  const std::optional<Vector3d> p_F =
-      p_P ? std::nullopt : pointInside(*field_, *shell_, X_FP.inverse(), margin, memory);
-  if (!p_P && !p_F) return std::nullopt;
-  ContactPoint contact;
-  contact.enter = contact.exit = contact.time = time;
-  contact.p_W = p_P ? X_WP * *p_P : X_WF * *p_F;
-  contact.normal_W = normalByBalls(X_WF, X_WP);
-  return contact;
+  const double margin = motion_error + deviation_ + kTimeRounding * motion_.reach();
+  const std::optional<InsidePoint> inside = deepPoint(*field_, *shell_, motion_.end(), margin, memory);
+  return inside ? std::make_optional(contactAtEnd(*inside)) : std::nullopt;
 }
 
 std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
@@ -392,30 +285,27 @@ std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationM
   return touch;
 }
 
-SurfacePair::Containment SurfacePair::containment(const Isometry3d& X_FP, int attempt) const {
+Containment SurfacePair::containment(const Isometry3d& X_FP, int attempt) const {
   if (!field_->triangles) return {true, std::nullopt};
-  std::optional<Vector3d> p_P, p_F;
-  const bool excluded = componentsAreOutside(*shell_, *field_, X_FP, attempt, p_P) &&
-                        componentsAreOutside(*field_, *shell_, X_FP.inverse(), attempt, p_F);
-  Containment found{excluded, std::nullopt};
-  if (p_P || p_F) found.inside = InsidePoint{p_P.has_value(), p_P ? *p_P : *p_F};
-  return found;
+  return containmentOf(*field_, *shell_, X_FP, attempt);
 }
 
-/// From A to B, as the bodies' balls lie.
-Vector3d SurfacePair::normalByBalls(const Isometry3d& X_WF, const Isometry3d& X_WP) const {
+/// The contact at a point that is inside at the motion's end. Its normal is as the bodies' balls lie.
+ContactPoint SurfacePair::contactAtEnd(const InsidePoint& inside) const {
+  const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
+  const Isometry3d X_WF = last.X_WF.pose(1.0), X_WP = last.X_WP.pose(1.0);
   const Vector3d displacement = X_WP * shell_->ball.center - X_WF * field_->ball.center;
-  return fromAToB(displacement.norm() > 0.0 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::UnitZ()));
+  ContactPoint contact;
+  contact.enter = contact.exit = contact.time = last.t_end;
+  contact.p_W = (inside.is_of_p ? X_WP : X_WF) * inside.p;
+  contact.normal_W =
+      fromAToB(displacement.norm() > 0.0 ? Vector3d(displacement.normalized()) : Vector3d(Vector3d::UnitZ()));
+  return contact;
 }
 
 ContactPoint SurfacePair::contactInside(const InsidePoint& inside) const {
-  const TwoBodyMotion last = motion_.motion(motion_.steps() - 1);
-  const Isometry3d X_WF = last.X_WF.pose(1.0), X_WP = last.X_WP.pose(1.0);
-  ContactPoint contact;
+  ContactPoint contact = contactAtEnd(inside);
   contact.enter = motion_.motion(0).t_start;
-  contact.time = contact.exit = last.t_end;
-  contact.p_W = (inside.is_of_p ? X_WP : X_WF) * inside.p;
-  contact.normal_W = normalByBalls(X_WF, X_WP);
   return contact;
 }
 

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "containment.h"
 #include "relative_motion.h"
 #include "scene/body_triangles.h"
 #include "sdf_ccd/monitor.h"
-#include "surface/separation.h"
 
 namespace sdf_ccd {
 
@@ -64,19 +64,8 @@ class SurfacePair {
   /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
   std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
 
-  /// A point of one body's surface that is certainly inside the other body.
-  struct InsidePoint {
-    bool is_of_p;  ///< of body P
-    Vector3d p;    ///< frame of its own body
-  };
-
-  /// Whether a body has a component wholly inside the other (design §3.15), at a pose at which the surfaces are apart.
-  struct Containment {
-    bool excluded;                      ///< neither has; false also if that is not known
-    std::optional<InsidePoint> inside;  ///< of such a component; empty if none is known
-  };
-  /// @param attempt  0: looks from all corners of each component; otherwise from one of them, another in each attempt,
-  ///                 which takes a fraction of the time.
+  /// Whether a body has a component wholly inside the other, at a pose at which the surfaces are apart.
+  /// @param attempt  see containmentOf().
   Containment containment(const Isometry3d& X_FP, int attempt = 0) const;
 
   /// The contact at a point that is inside at any time of the motion. The surfaces must be apart during all of it: so
@@ -100,9 +89,8 @@ class SurfacePair {
   bool isBelow(const TwoBodyMotion& motion, double start, double end, double margin, SeparationMemory& memory);
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
-  Vector3d normalByBalls(const Isometry3d& X_WF, const Isometry3d& X_WP) const;
+  ContactPoint contactAtEnd(const InsidePoint& inside) const;
   std::pair<std::size_t, double> stepAt(double time) const;
-  std::optional<ContactPoint> deepContact(double time, double margin, SeparationMemory& memory) const;
 
   bool f_is_a_;
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one, or F the half-space
