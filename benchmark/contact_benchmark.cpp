@@ -83,7 +83,6 @@ std::shared_ptr<fcl::CollisionGeometryd> fclShape(const test::Shape& shape) {
 void study(const Case& each, const StudyOptions& options) {
   const std::vector<CycleMotion> cycles = motionOf(each);
   BodyOptions prepared = optionsForContacts();
-  prepared.exact_depths = true;
   const auto scene = test::build({test::body("a", each.a), test::body("b", each.b)}, prepared);
 
   struct System {
@@ -92,11 +91,10 @@ void study(const Case& each, const StudyOptions& options) {
     std::unique_ptr<Monitor> monitor;
   };
   std::vector<System> all;
-  for (const char* name : {"verdict", "contacts", "wrenches", "deepest"}) {
+  for (const char* name : {"verdict", "contacts", "wrenches"}) {
     System system{name, {}, std::make_unique<Monitor>(scene, MonitorOptions())};
     system.request.contacts = system.name != "verdict";
     system.request.wrenches = system.name == "wrenches";
-    if (system.name == "deepest") system.request.refine = Refinement::kDeepest;
     all.push_back(std::move(system));
   }
   double contact = 0.0, uncertain = 0.0;

@@ -1,7 +1,7 @@
 """Tables of the study `contact`."""
 from results import number
 
-SYSTEMS = ['verdict', 'contacts', 'wrenches', 'deepest', 'fcl']
+SYSTEMS = ['verdict', 'contacts', 'wrenches', 'fcl']
 
 
 def contact(results):

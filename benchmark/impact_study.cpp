@@ -109,7 +109,7 @@ class Copies {
 /// The begin of a contact, as a cycle of a monitor reports it.
 class CycleSystem {
  public:
-  CycleSystem(const TriangleMesh& mesh, const BodyOptions& bodies, const MonitorOptions& options, Refinement refine) {
+  CycleSystem(const TriangleMesh& mesh, const BodyOptions& bodies, const MonitorOptions& options) {
     SceneDescription description;
     const auto shared = std::make_shared<const TriangleMesh>(mesh);
     for (const char* name : {"a", "b"}) {
@@ -121,7 +121,6 @@ class CycleSystem {
         std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(bodies)), bodies)),
         options);
     request_.wrenches = false;
-    request_.refine = refine;
     motion_.times = {0.0, 1.0};
     motion_.X_WB.assign(2, {Isometry3d::Identity(), Isometry3d::Identity()});
   }
@@ -141,23 +140,18 @@ class CycleSystem {
 
 std::vector<ImpactSystem> cycleSystems(const TriangleMesh& mesh) {
   std::vector<ImpactSystem> systems;
-  const auto add = [&](const char* name, double value, const BodyOptions& bodies, const MonitorOptions& options,
-                       Refinement refine) {
-    const auto system = std::make_shared<CycleSystem>(mesh, bodies, options, refine);
+  const auto add = [&](const char* name, double value, const BodyOptions& bodies, const MonitorOptions& options) {
+    const auto system = std::make_shared<CycleSystem>(mesh, bodies, options);
     ImpactSystem& added = systems.emplace_back();
     added.label.system = name;
     added.label.setting = lengthText(value);
     added.label.value = value;
     added.impact = [system](const Isometry3d& start, const Isometry3d& end) { return (*system)(start, end); };
   };
-  for (const double accuracy : {0.02, 0.01, 0.005, 0.0025})
-    add("sdf_ccd monitor by points (contact/accuracy)", accuracy, optionsForContacts(accuracy), {}, Refinement::kNone);
   for (const double max_error : {1e-2, 1e-3, 1e-4, kMinMaxError}) {
     MonitorOptions options;
     options.max_error = max_error;
-    BodyOptions bodies = optionsForContacts();
-    bodies.exact_depths = true;
-    add("sdf_ccd monitor by triangles (max_error)", max_error, bodies, options, Refinement::kDeepest);
+    add("sdf_ccd monitor (max_error)", max_error, optionsForContacts(), options);
   }
   return systems;
 }

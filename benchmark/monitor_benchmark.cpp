@@ -47,11 +47,10 @@ Waypoints waypointsOf(const BoxWorld& world, double rate, std::size_t cycles) {
   return waypoints;
 }
 
-CycleRequest withContacts(bool wrenches, Refinement refine) {
+CycleRequest withContacts(bool wrenches) {
   CycleRequest request;
   request.wrenches = wrenches;
   request.skipped_pairs = false;
-  request.refine = refine;
   return request;
 }
 
@@ -59,13 +58,13 @@ CycleRequest withContacts(bool wrenches, Refinement refine) {
 void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const std::string& name) {
   system.reset();
   std::vector<double> errors;
-  double refined = 0.0;
+  double measured = 0.0;
   for (std::size_t i = 0; i < waypoints.cycles(); ++i) {
     system.take(waypoints.X_WB[i], waypoints.X_WB[i + 1]);
     for (const PairResult& pair : system.run().pairs) {
       if (pair.verdict != Verdict::kContact || pair.skipped || pair.intervals.empty()) continue;
-      refined += pair.first_touch.has_value();
-      errors.push_back(pair.first_touch ? pair.deepest.depth_error : pair.contact_error.total());
+      measured += pair.measured;
+      errors.push_back(pair.deepest.depth_error);
     }
   }
   if (errors.empty()) return;
@@ -76,7 +75,7 @@ void printDepthErrors(SdfCcdMonitor& system, const Waypoints& waypoints, const s
   };
   row("depth_error_median", 0.5);
   row("depth_error_p99", 0.99);
-  print({"monitor", name, system.name(), "refined", refined / double(errors.size()), "of contacts", 1});
+  print({"monitor", name, system.name(), "measured", measured / double(errors.size()), "of contacts", 1});
 }
 
 /// Counts of verdicts over all cycles, and of those that FCL contradicts.
@@ -146,11 +145,10 @@ struct Built {
   BoxWorld world;
   std::shared_ptr<const Scene> scene;
   MonitorOptions options;
-  std::shared_ptr<const Scene> exact_scene;  // with exact_depths set
 };
 
 Built build(const Robot& robot, const BoxWorld& world, const std::string& name, double max_error) {
-  Built built{name, &robot, world, nullptr, {}, nullptr};
+  Built built{name, &robot, world, nullptr, {}};
   if (max_error > 0.0) built.options.max_error = max_error;
   BodyOptions options = preparedAsMonitored(built.options);
   const auto start = Clock::now();
@@ -165,9 +163,6 @@ Built build(const Robot& robot, const BoxWorld& world, const std::string& name, 
   row("pairs", double(built.scene->pairs.size()), "pairs");
   row("start_up", build_seconds, "s");
   row("memory", 1e-6 * bytes, "MB");
-  options.exact_depths = true;
-  built.exact_scene = std::make_shared<const Scene>(
-      buildScene(built.world.scene, planScene(built.world.scene, planOptions(options)), options));
   return built;
 }
 
@@ -222,11 +217,9 @@ void study(const Built& built, double rate, const std::string& name, const Study
   const auto add = [&](const char* system, const CycleRequest& request, const std::shared_ptr<const Scene>& scene) {
     systems.emplace_back(system, request, scene, built.options, waypoints.period);
   };
-  add("sdf_ccd", verdictsAlone(), built.scene);
-  if (isWanted(options.systems, "sdf_ccd_wrench"))
-    add("sdf_ccd_wrench", withContacts(true, Refinement::kNone), built.scene);
-  if (isWanted(options.systems, "sdf_ccd_deepest"))
-    add("sdf_ccd_deepest", withContacts(false, Refinement::kDeepest), built.exact_scene);
+  add("sdf_ccd", withContacts(false), built.scene);
+  if (isWanted(options.systems, "sdf_ccd_verdict")) add("sdf_ccd_verdict", verdictsAlone(), built.scene);
+  if (isWanted(options.systems, "sdf_ccd_wrench")) add("sdf_ccd_wrench", withContacts(true), built.scene);
   MonitorSystems peers;
   for (const MonitorPeerFactory& factory : monitorPeers()) factory(built.world.scene, built.scene->pairs, peers);
   const auto isLeftOut = [&](const auto& peer) { return !isWanted(options.systems, peer->name()); };
@@ -264,7 +257,7 @@ void study(const Built& built, double rate, const std::string& name, const Study
     studyColdCaches(system, waypoints, true, name);
   }
   for (const auto& peer : peers) studyColdCaches(*peer, waypoints, false, name);
-  for (std::size_t k = 1; k < systems.size(); ++k) printDepthErrors(systems[k], waypoints, name);
+  printDepthErrors(systems.front(), waypoints, name);
 #ifdef SDF_CCD_WITH_ROS
   if (isWanted(options.systems, "sdf_ccd_tf"))
     studyTransforms(built, waypoints.period, waypoints.cycles(), name, options.measure.runs);

@@ -1,7 +1,7 @@
 """Tables of the study `monitor`."""
 from results import number
 
-SYSTEMS = ['sdf_ccd', 'sdf_ccd_wrench', 'sdf_ccd_deepest', 'fcl', 'fcl_distance', 'bullet', 'bullet_cast']
+SYSTEMS = ['sdf_ccd', 'sdf_ccd_verdict', 'sdf_ccd_wrench', 'fcl', 'fcl_distance', 'bullet', 'bullet_cast']
 
 
 def by_system(results, metrics):
@@ -55,13 +55,11 @@ def depths(results):
     """Error bounds of depths, per contact and cycle."""
     rows = []
     for case in results.cases('monitor'):
-        def bounds(system):
-            values = [results.get('monitor', case, system, 'depth_error_' + name) for name in ('median', 'p99')]
-            return '-' if None in values else ' / '.join(map(number, values))
-        refined = results.get('monitor', case, 'sdf_ccd_deepest', 'refined')
-        if refined is not None:
-            rows.append([case, bounds('sdf_ccd_wrench'), bounds('sdf_ccd_deepest'), number(100 * refined)])
-    return ['case', 'by fields, mm', 'refined, mm', 'contacts that can be refined, %'], rows
+        values = [results.get('monitor', case, 'sdf_ccd', 'depth_error_' + name) for name in ('median', 'p99')]
+        measured = results.get('monitor', case, 'sdf_ccd', 'measured')
+        if measured is not None:
+            rows.append([case, ' / '.join(map(number, values)), number(100 * measured)])
+    return ['case', 'error of the depth, mm', 'contacts measured on surfaces, %'], rows
 
 
 TABLES = {'monitor_depths': depths, 'monitor_transforms': transforms, 'monitor_cycles': cycles, 'monitor_cold': cold,

@@ -129,6 +129,7 @@ struct SceneDescription {
 
 struct BodySurface;
 struct BodyTriangles;
+class DepthSolid;
 class TriangleTree;
 
 /// One collision element with its field.
@@ -159,6 +160,9 @@ struct Body : BodyPlace {
   std::shared_ptr<const BodySurface> surface;      ///< for voxels of a live map that are those of the body; else null
   std::shared_ptr<const BodyTriangles> triangles;  ///< of its bounded elements, which decide verdicts
   std::vector<BodyHalfSpace> half_spaces;          ///< its unbounded elements, which do so, too
+  /// Of its bounded elements, in which depths are measured; null where it is not certain (an open mesh, voxels), and of
+  /// a large mesh whose forces are awaited.
+  std::shared_ptr<const DepthSolid> solid;
   /// All bounded geometry of a body with a mesh whose sign is not trusted (MeshQuality::sign_trusted), with caps in
   /// openings and boxes around primitives, frame B. Only points with a free line of sight to the outside are certainly
   /// outside. Null for other bodies, whose fields give the sign.
@@ -288,10 +292,6 @@ struct BodyOptions {
   double motion_margin = 1e-3;  ///< chord tolerance and motion errors to allow for in the bands [m]
   double motion_error = 0.0;    ///< part of motion_margin: motion error of two bodies, without chords [m]
   std::string cache_directory;  ///< empty: nothing is read or written
-
-  /// Whether meshes that are decided by triangles keep their solids for measuring depths: CycleRequest::refine. This
-  /// takes several times the memory of the mesh.
-  bool exact_depths = false;
 
   /// Whether data of equal content, made with equal options, is shared with all bodies of this process, and not only
   /// with those of the same scene: several monitors in one nodelet manager then hold it once.

@@ -55,7 +55,6 @@ struct MotionsRequest {
   /// Whether MotionVerdict::pairs are wanted. Each motion that is not CLEAR is then checked as a whole, as by
   /// checkMotion(), whatever first_only says; only the finest check, and only of these motions, costs more.
   bool list_pairs = false;
-  Refinement refine = Refinement::kNone;  ///< of the listed pairs' contacts
 
   /// Maximum deviations of a motion's samples [m], coarse first: motions that are not CLEAR are checked again with the
   /// next one. Most of a planner's edges are far from everything, and a coarse check takes a fraction of a fine one.

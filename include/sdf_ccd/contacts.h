@@ -135,7 +135,7 @@ class ContactTracker {
     bool is_unreported = false;  // it ended with its world, after the last cycle
     bool has_deepest = false;
     bool deepest_is_certain = false;  // it is of a cycle in which the contact was certain
-    double max_depth = 0.0;           // upper bound of the depth of its points or, where refined, of all [m]
+    double max_depth = 0.0;           // upper bound of the depth of its points or, where measured, of all [m]
     std::uint64_t cycle = 0;          // last cycle in which it was seen
   };
 

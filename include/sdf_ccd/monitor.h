@@ -18,15 +18,6 @@ namespace sdf_ccd {
 /// Beyond it, rounding of the sum of margin and error bound would count [m].
 constexpr double kLargestMargin = 1000.0;
 
-/// How contacts are measured beyond what fields and shells give.
-enum class Refinement {
-  kNone,
-  /// On the triangles of both bodies: the greatest depth, its time and location, and the time at which the contact
-  /// begins. Only for pairs of closed bodies that consist of triangles, or of such a body and a half-space, in a scene
-  /// built with BodyOptions::exact_depths; other pairs are not refined.
-  kDeepest,
-};
-
 class PairTimes;
 
 /// The outputs wanted from a cycle; others are not computed.
@@ -50,8 +41,6 @@ struct CycleRequest {
   /// ended although it came first has all of the time again only after some cycles, so that others have it meanwhile.
   double max_time = 0.0;
 
-  Refinement refine = Refinement::kNone;  ///< of contacts, where these are wanted
-
   /// Only pairs that stay farther apart than this are CLEAR [m]; those that come closer are UNCERTAIN, and so are
   /// contacts that are less deep. Error bounds do not contain it. From 0 to kLargestMargin.
   double margin = 0.0;
@@ -59,7 +48,10 @@ struct CycleRequest {
   PairTimes* times = nullptr;  ///< receives the time that each pair takes; null: it is not measured
 
   /// Whether contacts are computed, for themselves or for something else.
-  bool wantsContacts() const { return contacts || wrenches || max_points > 0; }
+  bool wantsContacts() const { return contacts || wantsPoints(); }
+
+  /// Whether points of shells are queried in fields: they bear the forces.
+  bool wantsPoints() const { return wrenches || max_points > 0; }
 };
 
 /// One contact of one shell point.
@@ -93,18 +85,24 @@ struct PairResult {
   /// deepest.depth + depth_error, the greatest that the bodies allow; there are no points, and wrenches are NaN.
   bool incomplete = false;
   ErrorSources error;          ///< of the verdict
-  ErrorSources contact_error;  ///< of intervals and depths, which come from fields and shells; zero if there are none
+  ErrorSources contact_error;  ///< of what fields and shells tell: points and, unless measured, intervals and depths;
+                               ///< zero if they tell nothing
   double clearance = 0.0;      ///< lower bound of the distance at the span's end, the motion's error taken off [m];
                                ///< negative if not known. See CycleRequest::skipped_pairs
   std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  /// Valid if intervals is not empty; beyond the band, its error holds for all points. If refined, no point of either
+  /// Valid if intervals is not empty; beyond the band, its error holds for all points. If measured, no point of either
   /// surface gets deeper than this depth by more than depth_error within the span.
   ContactPoint deepest;
-  bool refined = false;  ///< the deepest point was measured on triangles: see CycleRequest::refine
-  /// If refined, and the surfaces cross: the bodies are apart before `enter`, and certainly touch by `exit`. The first
-  /// interval begins between the two. `exit` is infinite if no certain crossing was found. Not set if one body may be
-  /// inside the other at the start, unless that is a half-space.
+  /// Whether intervals and depths were measured on the surfaces: those of bodies with certain solids. The others' come
+  /// from fields and shells.
+  bool measured = false;
+  /// If measured, and the surfaces meet: the bodies are apart before `enter`, where the first interval begins, and
+  /// certainly touch by `exit`, which is infinite if no certain crossing was found. Not set if one body may be inside
+  /// the other at the start, unless that is a half-space.
   std::optional<Interval> first_touch;
+  /// Likewise: they certainly touch at `enter`, which may be −∞, and are apart after `exit`, where the last interval
+  /// ends.
+  std::optional<Interval> last_touch;
   Wrench on_a_W;  ///< average over the span, world axes, about A's origin at its end
   Wrench on_b_W;  ///< the same on B, about B's origin
   std::vector<ContactPoint> points;

@@ -23,13 +23,8 @@ struct RobotSceneOptions {
   /// to kLargestMaxError.
   double max_error = 1e-4;
 
-  /// Whether depths and first contacts are measured on the triangles of both bodies, to about max_error; else depths
-  /// are those of the points of a shell, to some millimetres. Takes several times the memory of the meshes.
-  bool exact_depths = true;
-
-  /// Whether fields and shells are made, which contacts are measured with: most of the time that loading takes. Without
-  /// them verdicts and distances are the same, but of a contact only some times and a bound of its depth are known, and
-  /// wrenches are NaN.
+  /// Whether fields and shells are made, which give forces: most of the time that loading takes. Without them wrenches
+  /// are NaN, and of bodies without a certain solid (open meshes) only some times and a bound of the depth are known.
   bool measure_contacts = true;
   /// Maximum distance of a surface location to a point that produces forces [m]; none: by the sizes of the bodies, at
   /// most 5 mm.

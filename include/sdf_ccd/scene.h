@@ -39,7 +39,6 @@ struct ScenePlan {
 struct PlanOptions {
   double shell_spacing = 0.0;       ///< as in ShellOptions [m]; 0 if it does not matter
   double large_shell_points = 2e4;  ///< a primitive that needs more points gets no shell against smaller bodies
-  bool both_fields = false;         ///< both bodies of a pair have a field, whatever shells there are: for exact depths
 };
 
 /// Plans which fields and shells the pairs of a scene need.
@@ -84,7 +83,6 @@ struct Scene {
 /// The options that planScene() needs.
 inline PlanOptions planOptions(const BodyOptions& options) {
   PlanOptions plan;
-  plan.both_fields = options.exact_depths;
   plan.shell_spacing = options.shell.spacing;
   return plan;
 }

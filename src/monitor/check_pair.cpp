@@ -78,26 +78,31 @@ void setIncomplete(const PairCycle& cycle, const ContactPoint& proof, MonitoredP
   if (cycle.request.wrenches) setWrenchesUnknown(result);
 }
 
-/// Computes the contacts of a pair whose surfaces cross, or may meet. If time ends after they are found, they are not
-/// measured. @throws Cancelled if it ends before.
+/// Computes the contacts of a pair whose surfaces cross, or may meet. @throws Cancelled if time ends before they are
+/// known; some intervals may then still lack a deepest point.
 /// @param crossing     of the surfaces, or a point of one body inside the other, if one is known.
 /// @param given_error  RelativeMotion::givenError(), and the margin where result.error contains it [m].
 void describe(const PairCycle& cycle, const std::optional<ContactPoint>& crossing, double given_error,
               MonitoredPair& pair, PairResult& result) {
   SurfacePair& surfaces = pair.verdict.surfaces();
-  pair.force.findContacts(cycle, given_error, crossing.has_value(), result);
-  if (crossing) pair.measure.addCrossing(*crossing, surfaces, cycle.memory.separation, result);
-  if (result.intervals.empty()) {
-    result.contact_error = {};
-    return;
+  SeparationMemory& memory = cycle.memory.separation;
+  const bool is_exact = pair.measure.isExact();
+  if (!is_exact || cycle.request.wantsPoints())
+    pair.force.findContacts(cycle, given_error, crossing.has_value(), result);
+  if (is_exact) {
+    pair.measure.measure(cycle, crossing, surfaces, result);
+  } else {
+    if (crossing) pair.measure.addCrossing(*crossing, surfaces, memory, result);
+    if (result.intervals.empty()) result.contact_error = {};
+    try {
+      pair.measure.addPeaks(surfaces, memory, result);
+    } catch (const Cancelled&) {
+      result.incomplete = true;
+      result.reason = "incomplete: the cycle's time was used up before each interval had its deepest point";
+      return;
+    }
   }
-  try {
-    pair.measure.complete(cycle, surfaces, result);
-    if (cycle.request.wrenches) pair.force.explainNone(result);
-  } catch (const Cancelled&) {
-    result.incomplete = true;
-    result.reason = "incomplete: the cycle's time was used up before the contact was measured on triangles";
-  }
+  if (cycle.request.wrenches && !result.intervals.empty()) pair.force.explainNone(result);
 }
 
 /// Decides by the surfaces, and describes what is not clear.

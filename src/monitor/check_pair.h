@@ -27,6 +27,7 @@ struct MonitoredPair {
 
   void forget() {
     verdict.forget();
+    measure.forget();
     X_AB_as_it_came.reset();
   }
 };

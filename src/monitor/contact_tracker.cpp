@@ -227,10 +227,10 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
     slot.has_deepest = true;
     slot.deepest_is_certain = is_contact;
   }
-  // Points of other cycles may be deeper by their own errors. If refined, the deepest one stands for all of its
+  // Points of other cycles may be deeper by their own errors. If measured, the deepest one stands for all of its
   // contact.
-  const bool is_refined = pair.refined && deepest == &pair.deepest;
-  if (deepest && is_contact == slot.deepest_is_certain && (deepest->depth > 0.0 || is_refined))
+  const bool is_measured = pair.measured && deepest == &pair.deepest;
+  if (deepest && is_contact == slot.deepest_is_certain && (deepest->depth > 0.0 || is_measured))
     slot.max_depth = std::max(slot.max_depth, deepest->depth + deepest->depth_error);
   contact.deepest.depth_error = std::max(contact.deepest.depth_error, slot.max_depth - contact.deepest.depth);
 }

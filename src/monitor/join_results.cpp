@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/infinity.h"
 #include "pair_result.h"
 #include "summarise.h"
 
@@ -73,8 +74,9 @@ void ResultJoiner::addPair(const CycleMotion& motion, const PairResult& piece, P
   if (!piece.intervals.empty() && (pair.intervals.empty() || isDeeper(piece.deepest, pair.deepest)))
     pair.deepest = later(piece.deepest, start);
   addFirstTouch(start, piece, pair, known);
-  pair.refined |= piece.refined;
-  if (!piece.intervals.empty() && (piece.refined || piece.deepest.depth > 0.0)) {
+  addLastTouch(start, length, piece, pair);
+  pair.measured |= piece.measured;
+  if (!piece.intervals.empty() && (piece.measured || piece.deepest.depth > 0.0)) {
     known.reach = std::max(known.reach, piece.deepest.depth + piece.deepest.depth_error);
   } else if (piece.intervals.empty() && piece.verdict == Verdict::kUncertain) {
     known.near = std::max(known.near, piece.error.total() + margin_);
@@ -107,6 +109,14 @@ void ResultJoiner::addFirstTouch(double start, const PairResult& piece, PairResu
   if (touch && !is_known) pair.first_touch = Interval{known.apart_until.value_or(start), start + touch->exit};
 }
 
+/// A piece that is not CLEAR and has no last touch may touch up to its end.
+void ResultJoiner::addLastTouch(double start, double length, const PairResult& piece, PairResult& pair) {
+  if (piece.verdict == Verdict::kClear) return;
+  const Interval touch = piece.last_touch.value_or(Interval{-kInfinity, length});
+  const double known = pair.last_touch ? pair.last_touch->enter : -kInfinity;
+  pair.last_touch = Interval{std::max(known, start + touch.enter), start + touch.exit};
+}
+
 /// From the body's origin at the end of this piece to that at its start.
 Vector3d ResultJoiner::shift(int body, const CycleMotion& motion) const {
   const std::vector<Isometry3d>& poses = motion.X_WB[body];
@@ -118,9 +128,10 @@ CycleResult ResultJoiner::result() const {
   CycleResult result = joined_;
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     PairResult& pair = result.pairs[i];
-    const double reach = std::max(known_[i].reach, pair.refined ? known_[i].near : 0.0);
+    const double reach = std::max(known_[i].reach, pair.measured ? known_[i].near : 0.0);
     pair.deepest.depth_error = std::max(pair.deepest.depth_error, reach - pair.deepest.depth);
     keepHighest(pair);
+    if (!pair.measured) pair.last_touch.reset();
     if (pair.verdict != Verdict::kNotChecked && !pair.on_a_W.force.hasNaN()) pair.reason.clear();
     pair.on_a_W = 1.0 / ends_.times[1] * pair.on_a_W;
     pair.on_b_W = 1.0 / ends_.times[1] * pair.on_b_W;

@@ -32,12 +32,13 @@ class ResultJoiner {
   /// State of a pair over all pieces.
   struct Known {
     std::optional<double> apart_until;  // start of the first piece that is not CLEAR, or the first touch in it
-    double reach = 0.0;                 // upper bound of the depth of points or, where refined, of all [m]
+    double reach = 0.0;                 // upper bound of the depth of points or, where measured, of all [m]
     double near = 0.0;                  // the same of pieces that are UNCERTAIN without a contact
   };
 
   void addPair(const CycleMotion& motion, const PairResult& piece, PairResult& pair, Known& known) const;
   static void addFirstTouch(double start, const PairResult& piece, PairResult& pair, Known& known);
+  static void addLastTouch(double start, double length, const PairResult& piece, PairResult& pair);
   Vector3d shift(int body, const CycleMotion& motion) const;
 
   int max_points_;

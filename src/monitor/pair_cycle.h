@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "contact_collector.h"
-#include "contact_refinement.h"
+#include "pair_depth.h"
 #include "resting_answers.h"
 #include "sdf_ccd/cancel.h"
+#include "surface/separation.h"
 
 namespace sdf_ccd {
 
@@ -17,7 +18,7 @@ struct PairMemory {
   ContactCollector collector;
   std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
-  ContactRefinement::Memory refinement;
+  PairDepth::Memory depth;
   CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of all that is tested
 };
 

@@ -15,8 +15,9 @@ void clear(PairResult& result) {
   result.clearance = -1.0;
   result.intervals.clear();
   result.deepest = {};
-  result.refined = false;
+  result.measured = false;
   result.first_touch.reset();
+  result.last_touch.reset();
   result.on_a_W = {};
   result.on_b_W = {};
   result.points.clear();

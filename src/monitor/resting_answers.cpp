@@ -25,8 +25,7 @@ bool areEqual(const MonitorOptions& a, const MonitorOptions& b) {
 /// Whether what was computed for one request contains what another one wants.
 bool contains(const CycleRequest& known, const CycleRequest& wanted) {
   if (!wanted.wantsContacts()) return true;
-  return known.wantsContacts() && known.wrenches >= wanted.wrenches && known.max_points >= wanted.max_points &&
-         known.refine == wanted.refine;
+  return known.wantsContacts() && known.wrenches >= wanted.wrenches && known.max_points >= wanted.max_points;
 }
 
 /// A larger error leaves open what a smaller one does; what a larger one proves, a smaller one does, too.
@@ -128,11 +127,15 @@ void setResting(const RestingAnswer& answer, const SweptBodies& bodies, double e
   // Depths are those of the pose itself, whatever its error was.
   result.error.chord = std::max(error, known.error.chord + error + RestingAnswers::kMoved - answer.error);
   result.contact_error = known.contact_error;
-  result.refined = known.refined;
+  result.measured = known.measured;
   for (const Interval& interval : known.intervals)
     result.intervals.push_back({time(interval.enter), time(interval.exit)});
   if (!known.intervals.empty()) result.deepest = placed(known.deepest);
-  if (known.first_touch) result.first_touch = Interval{time(known.first_touch->enter), time(known.first_touch->exit)};
+  const auto timesOf = [&](const std::optional<Interval>& touch) {
+    return touch ? std::make_optional(Interval{time(touch->enter), time(touch->exit)}) : std::nullopt;
+  };
+  result.first_touch = timesOf(known.first_touch);
+  result.last_touch = timesOf(known.last_touch);
   const std::size_t points = std::min(known.points.size(), static_cast<std::size_t>(std::max(max_points, 0)));
   for (std::size_t i = 0; i < points; ++i) result.points.push_back(placed(known.points[i]));
   for (const ContactPoint& peak : known.peaks) result.peaks.push_back(placed(peak));

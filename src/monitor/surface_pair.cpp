@@ -255,34 +255,45 @@ std::optional<ContactPoint> SurfacePair::findContact(double motion_error, Separa
   return inside ? std::make_optional(contactAtEnd(*inside)) : std::nullopt;
 }
 
-std::optional<Interval> SurfacePair::firstTouch(double motion_error, SeparationMemory& memory) {
+std::optional<SurfacePair::Touch> SurfacePair::touch(double from, double to, double motion_error,
+                                                     SeparationMemory& memory) {
   constexpr int kMaxHalvings = 60;
-  const auto over = [&](std::size_t step, double start, double end) {
-    return during(step, start, end, motion_error, memory);
-  };
-  std::optional<Interval> touch;
-  for (std::size_t step = 0; step < motion_.steps(); ++step) {
-    const Separation found = over(step, 0.0, 1.0);
-    if (found.state == SeparationState::kApart) continue;
-    double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until; not known apart at; crossing at
-    if (found.state == SeparationState::kCrossing) end = crossing = found.s;
-    for (int i = 0; !touch && i < kMaxHalvings && (end - apart) * motion_.bounds(step).travel > resolution_; ++i) {
-      const double middle = 0.5 * (apart + end);
-      const Separation part = over(step, apart, middle);
-      if (part.state == SeparationState::kApart) {
-        apart = middle;
-      } else {
-        const bool crosses = part.state == SeparationState::kCrossing;
-        end = crosses ? apart + part.s * (middle - apart) : middle;
-        if (crosses) crossing = end;
+  const auto [first, first_share] = stepAt(from);
+  const auto [last, last_share] = stepAt(to);
+  const bool backward = to < from;
+  std::optional<Touch> touch;
+  for (std::size_t step = first;; backward ? --step : ++step) {
+    const double begin = step == first ? first_share : backward ? 1.0 : 0.0;
+    const double length = (step == last ? last_share : backward ? 0.0 : 1.0) - begin;
+    const auto time = [&](double along) { return timeAt(motion_.motion(step), begin + along * length); };
+    const auto over = [&](double start, double end) {
+      return during(step, begin + start * length, begin + end * length, motion_error, memory);
+    };
+    // No part of a step is more than twice as fast as the whole (see relativeMotionBounds()).
+    const double travel = motion_.bounds(step).travel * std::min(1.0, 2.0 * std::abs(length));
+    const Separation found = over(0.0, 1.0);
+    if (found.state != SeparationState::kApart) {
+      double apart = 0.0, end = 1.0, crossing = kInfinity;  // apart until; not known apart at; crossing at
+      if (found.state == SeparationState::kCrossing) end = crossing = found.s;
+      for (int k = 0; !touch && k < kMaxHalvings && (end - apart) * travel > resolution_; ++k) {
+        const double middle = 0.5 * (apart + end);
+        const Separation part = over(apart, middle);
+        if (part.state == SeparationState::kApart) {
+          apart = middle;
+        } else {
+          const bool crosses = part.state == SeparationState::kCrossing;
+          end = crosses ? apart + part.s * (middle - apart) : middle;
+          if (crosses) crossing = end;
+        }
+      }
+      if (!touch) touch = Touch{time(apart), std::nullopt};
+      if (crossing < kInfinity) {
+        touch->crossing = time(crossing);
+        return touch;
       }
     }
-    if (!touch) touch = Interval{timeAt(motion_.motion(step), apart), kInfinity};
-    if (crossing == kInfinity) continue;
-    touch->exit = timeAt(motion_.motion(step), crossing);
-    break;
+    if (step == last) return touch;
   }
-  return touch;
 }
 
 Containment SurfacePair::containment(const Isometry3d& X_FP, int attempt) const {

@@ -59,10 +59,16 @@ class SurfacePair {
   /// A certain crossing of the surfaces at a time of the motion [s]; empty if none is found.
   std::optional<ContactPoint> crossingAt(double time, double motion_error, SeparationMemory& memory);
 
-  /// The first touch of the surfaces [s]: they are apart before `enter` and certainly cross at `exit`, which is
-  /// infinite if no crossing is certain. Unless they graze, they move by no more than the resolution between the two.
-  /// Empty if the surfaces are apart all the time, also if one body is wholly inside the other.
-  std::optional<Interval> firstTouch(double motion_error, SeparationMemory& memory);
+  /// A touch of the surfaces [s].
+  struct Touch {
+    double apart;                    ///< they are apart from the start of the search up to this time
+    std::optional<double> crossing;  ///< and certainly cross then; empty if no crossing is certain
+  };
+
+  /// The first touch from one time of the motion to another, which may be before it. Unless they graze, the surfaces
+  /// move by no more than the resolution between the two times. Empty if they are apart all the time, also if one body
+  /// is wholly inside the other.
+  std::optional<Touch> touch(double from, double to, double motion_error, SeparationMemory& memory);
 
   /// Whether a body has a component wholly inside the other, at a pose at which the surfaces are apart.
   /// @param attempt  see containmentOf().

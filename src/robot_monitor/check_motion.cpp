@@ -102,7 +102,6 @@ class MotionChecker {
   MotionVerdict list(const PlannedMotion& motion) {
     CycleRequest request = request_;
     request.contacts = true;
-    request.refine = wanted_.refine;
     MotionVerdict found = begin(motion);
     std::vector<Touch> touches(monitor_.scene().pairs.size());
     forPieces(motion, request, [&](double start, const CycleResult& result) {

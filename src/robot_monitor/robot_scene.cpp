@@ -49,7 +49,6 @@ RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, const ResourceLoader&
     : robot(std::move(model)),
       loader(options.loader ? options.loader : mesh_loader),
       rules{rulesOf(options.allowed_pairs), rulesOf(options.checked_pairs)},
-      measures_depths(options.exact_depths),
       forces(options.measure_contacts ? Forces::kKnown : Forces::kUnwanted),
       body_options(optionsForContacts(options.contact_spacing)),
       memory(makeMonitorMemory()) {
@@ -57,7 +56,6 @@ RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, const ResourceLoader&
   monitor.max_error = options.max_error;
   sampling = samplingTolerance(monitor.max_error, monitor.chords.tolerance);
   setMotionErrors(sampling, monitor.chords.tolerance, body_options);
-  body_options.exact_depths = options.exact_depths;
   body_options.cache_directory = options.cache_directory;
   // Refuses what no monitor takes before anything is built.
   [[maybe_unused]] const Monitor none(std::make_shared<const Scene>(), monitor);

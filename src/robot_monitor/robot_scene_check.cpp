@@ -90,7 +90,6 @@ MotionResult RobotScene::check(const RobotTrajectory& trajectory, const MotionCh
   request.contacts = options.contacts;
   request.wrenches = options.contacts && options.wrenches;
   request.max_points = options.contacts ? options.max_points : 0;
-  if (options.contacts && impl_->measures_depths) request.refine = Refinement::kDeepest;
   MotionCheck check(impl_->world->scene, impl_->monitor, motion, request, impl_->memory);
   while (!check.isDone()) check.next();
   const CycleResult checked = check.result();

@@ -42,7 +42,6 @@ class RobotScene::Impl::StateDistances {
     rest.piece(0, rest.waypoints.size() - 1, motion_);
     CycleRequest request;
     request.wrenches = false;
-    if (scene_.measures_depths) request.refine = Refinement::kDeepest;
     result_ = &monitor_.run(motion_, request);
   }
 

@@ -46,7 +46,6 @@ struct RobotScene::Impl {
   const RobotModel robot;
   const ResourceLoader loader;
   const PairRules rules;
-  const bool measures_depths;
   const Forces forces;  // of all bodies
   MonitorOptions monitor;
   BodyOptions body_options;

@@ -15,9 +15,6 @@ namespace {
 constexpr std::size_t kMaxTriangles = 8'000'000;              // about a gigabyte
 constexpr std::size_t kMaxVoxelBytes = std::size_t{1} << 28;  // of the box around the occupied ones, a bit each
 
-/// An opening is a crack if no point of its cap is farther from the mesh [m]: what is inside did not come through it.
-constexpr double kCrack = 2.5e-4;
-
 /// Deviation of a cylinder's triangles [m]: a fiftieth of the default error of verdicts, or more for radii beyond 5 m,
 /// which would need more than 3,500 sides.
 double cylinderDeviation(const Cylinder& cylinder) {
@@ -78,19 +75,6 @@ class Collector {
   std::vector<std::vector<Vector3d>> components;
 };
 
-/// See BodyTriangles::solids.
-std::vector<std::shared_ptr<const Solid>> solidsOf(const BodyDescription& description, MeshPool& pool) {
-  std::vector<std::shared_ptr<const Solid>> solids;
-  for (const GeometryDescription& geometry : description.geometry) {
-    solids.emplace_back();
-    if (std::holds_alternative<Primitive>(geometry.shape)) continue;
-    PooledMesh& pooled = pool.find(geometry);
-    if (!SolidSource(pooled.mesh, pooled.made).solid().closed()) return {};
-    solids.back() = pooled.made.solid;
-  }
-  return solids;
-}
-
 void requireRoom(std::size_t triangles) {
   if (triangles > kMaxTriangles)
     throw std::invalid_argument(std::to_string(triangles) + " triangles, more than the " +
@@ -146,14 +130,10 @@ std::shared_ptr<const BodyTriangles> ownTrianglesOf(const BodyDescription& descr
     // The boundary of the solid is the whole mesh, and closed with the caps, or where its faces are joined.
     const ClosedSolid& solid = SolidSource(pooled.mesh, pooled.made).closed();
     all.add(solid.openings().caps, geometry.X_BG);
-    const std::vector<double>& reach = solid.openings().reach;
-    made->is_cracked =
-        made->elements == 1 && std::all_of(reach.begin(), reach.end(), [](double r) { return r <= kCrack; });
+    made->is_cracked = made->elements == 1 && solid.hasCracksAlone();
     made->deviation = std::max(made->deviation, solid.moved());
   }
   made->components = std::move(all.components);
-  if (pool.exactDepths() && made->voxels.empty() && all.triangles.size() == open)
-    made->solids = solidsOf(description, pool);
   if (all.triangles.size() > open) made->closed = std::make_unique<BoxTree>(all.triangles);
   return made;
 }
@@ -169,8 +149,6 @@ double slackOf(const BodyTriangles::Voxels& voxels, const Vector3d& p) {
 std::size_t BodyTriangles::bytes() const {
   std::size_t bytes = tree.bytes() + (closed ? closed->bytes() : 0) + element.size() * sizeof(element[0]);
   for (const Voxels& of_map : voxels) bytes += of_map.solid->bytes();
-  for (const auto& solid : solids)
-    if (solid) bytes += solid->tree().bytes();
   return bytes;
 }
 
@@ -209,7 +187,7 @@ bool BodyTriangles::isInside(const Vector3d& p) const {
 
 std::shared_ptr<const BodyTriangles> trianglesOf(const BodyDescription& description, MeshPool& pool) {
   WeakStore<BodyTriangles>& shared = pool.content().triangles;
-  const std::string key = pool.keys().keyOf(description) + (pool.exactDepths() ? "exact" : "");
+  const std::string key = pool.keys().keyOf(description);
   if (auto known = shared.find(key)) return known;
   auto made = ownTrianglesOf(description, pool);
   return made ? shared.keep(key, std::move(made)) : nullptr;

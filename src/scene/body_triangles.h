@@ -34,10 +34,6 @@ struct BodyTriangles {
   /// directions. If one is outside a solid whose surface the component does not meet, the whole component is.
   std::vector<std::vector<Vector3d>> components;
 
-  /// Per element the solid of its mesh, null for a primitive; empty unless BodyOptions::exact_depths is set, and for a
-  /// body with a mesh that is not closed.
-  std::vector<std::shared_ptr<const Solid>> solids;
-
   std::size_t bytes() const;
 
   const BoxTree& closedTree() const { return closed ? *closed : tree; }

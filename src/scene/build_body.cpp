@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "scene/body_solid.h"
 #include "scene/body_triangles.h"
 #include "scene/geometry_keys.h"
 
@@ -30,8 +31,8 @@ void appendTo(std::string& key, const std::optional<T>& number) {
 /// Geometry and options of a body, with the names of meshes, which warnings contain.
 std::string contentKey(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                        GeometryKeys& keys) {
-  const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache,
-               exact_depths, is_shared, max_error, max_preparation_time, divides_max_error] = options;
+  const auto& [field_options, shell_options, points_across, cells_across, motion_margin, motion_error, cache, is_shared,
+               max_error, max_preparation_time, divides_max_error] = options;
   static_cast<void>(cache);
   static_cast<void>(is_shared);
   static_cast<void>(max_preparation_time);
@@ -44,7 +45,7 @@ std::string contentKey(const BodyDescription& description, const BodyNeeds& need
   const auto add = [&](const auto&... values) { (appendTo(key, values), ...); };
   add(cells, cell_size, field_error, band, max_bytes);
   add(spacing, edge_gap, has_siblings, vertex_spacing, seed, max_points);
-  add(points_across, cells_across, motion_margin, motion_error, exact_depths, max_error, divides_max_error);
+  add(points_across, cells_across, motion_margin, motion_error, max_error, divides_max_error);
   add(field, shell);
   for (const GeometryDescription& geometry : description.geometry) key += geometry.source + '\n';
   return key;
@@ -68,6 +69,16 @@ BoundingBall ballOf(const Body& body) {
   return {Vector3d::Zero(), std::max(kHalfSpaceRadius, ball.center.norm() + ball.radius)};
 }
 
+/// Whether the body's solid comes with its forces: that of a large mesh takes longer than what decides verdicts.
+bool isSolidAwaited(const BodyDescription& description, MeshPool& pool) {
+  constexpr std::size_t kLarge = 20000;  // triangles
+  if (description.forces != Forces::kAwaited) return false;
+  std::size_t triangles = 0;
+  for (const GeometryDescription& geometry : description.geometry)
+    if (!std::holds_alternative<Primitive>(geometry.shape)) triangles += pool.find(geometry).mesh.triangles.size();
+  return triangles > kLarge;
+}
+
 /// As buildBody(), but for the limit of time.
 BuiltBody buildInAnyTime(const BodyDescription& description, const BodyNeeds& needs, const BodyOptions& options,
                          MeshPool& pool, const Progress& progress) {
@@ -87,6 +98,8 @@ BuiltBody buildInAnyTime(const BodyDescription& description, const BodyNeeds& ne
   if (was_known) countAsShared(mine.report);
   if (needs.triangles) mine.body.triangles = trianglesOf(description, pool);
   if (mine.body.triangles && !was_known) mine.report.shell_bytes += mine.body.triangles->bytes();
+  if (needs.triangles && !isSolidAwaited(description, pool)) mine.body.solid = solidOf(description, pool);
+  if (mine.body.solid && !was_known) mine.report.shell_bytes += mine.body.solid->bytes();
   if (needs.surface) mine.body.surface = surfaceOf(description, pool);
   mine.body.ball = ballOf(mine.body);
   return mine;

@@ -18,11 +18,13 @@ namespace sdf_ccd {
 
 struct BodyTriangles;
 struct BuiltBody;
+class DepthSolid;
 
 /// What bodies of equal content share, for as long as one of them exists. Thread-safe.
 struct SharedContent {
   WeakStore<BuiltBody> bodies;
   WeakStore<BodyTriangles> triangles;
+  WeakStore<DepthSolid> solids;
 };
 
 /// A mesh of the scene and the data built from it.
@@ -44,9 +46,6 @@ class MeshPool {
 
   /// The mesh of this geometry's content. The reference stays valid.
   PooledMesh& find(const GeometryDescription& geometry);
-
-  /// See BodyOptions.
-  bool exactDepths() const { return options_.exact_depths; }
 
   SharedContent& content();
   GeometryKeys& keys() { return keys_; }

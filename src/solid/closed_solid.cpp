@@ -1,5 +1,6 @@
 #include "solid/closed_solid.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "conforming_mesh.h"
@@ -17,6 +18,11 @@ ClosedSolid::ClosedSolid(std::shared_ptr<const Solid> solid) : solid_(std::move(
   openings_ = findOpenings(solid_->boundary());
   if (openings_.reach.empty()) return;
   solid_ = std::make_shared<const Solid>(welded(merged(solid_->boundary(), openings_.caps)));
+}
+
+bool ClosedSolid::hasCracksAlone() const {
+  constexpr double kWidest = 2.5e-4;  // [m]
+  return std::all_of(openings_.reach.begin(), openings_.reach.end(), [](double reach) { return reach <= kWidest; });
 }
 
 const Solid& SolidSource::solid() const {

@@ -19,6 +19,10 @@ class ClosedSolid {
   const Openings& openings() const { return openings_; }  ///< those that were closed by caps
   double moved() const { return moved_; }                 ///< how far points of the surface were moved, at most [m]
 
+  /// Whether the openings are cracks, so that nothing comes in through them: no point of a cap is farther from the mesh
+  /// than a quarter of a millimetre.
+  bool hasCracksAlone() const;
+
  private:
   std::shared_ptr<const Solid> solid_;
   Openings openings_;

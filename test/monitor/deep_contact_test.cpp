@@ -45,7 +45,8 @@ TEST(Monitor, DepthsBeyondTheBandHaveAnErrorThatHolds) {
         greatest = std::max(greatest, depth);
       }
       EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error + 1e-3, greatest) << radius << " in " << pieces;
-      EXPECT_LE(pair.deepest.depth + pair.deepest.depth_error, 2.0 * radius) << radius << " in " << pieces;
+      EXPECT_LE(pair.deepest.depth, radius) << radius << " in " << pieces;
+      EXPECT_LT(pair.deepest.depth_error, 2e-4) << radius << " in " << pieces;
     }
   }
   EXPECT_GT(deeper, 0) << "the field tells them all";

@@ -18,7 +18,6 @@ struct Fall {
     std::vector<BodyDescription> bodies = {plane, body("thing", shape)};
     if (!ground_first) std::swap(bodies[0], bodies[1]);
     BodyOptions options = fine(0.02);
-    options.exact_depths = true;
     scene = build(std::move(bodies), options);
     monitor = std::make_unique<Monitor>(scene, soft());
   }

@@ -93,12 +93,6 @@ CycleResult joined(Monitor& monitor, const CycleMotion& motion, const CycleReque
   return joiner.result();
 }
 
-BodyOptions exactDepths() {
-  BodyOptions options = optionsForContacts();
-  options.exact_depths = true;
-  return options;
-}
-
 /// A cube with a corner pointing down, kCorner below its centre.
 constexpr double kHalf = 0.05;
 const double kCorner = std::sqrt(3.0) * kHalf, kEdge = std::sqrt(2.0) * kHalf;
@@ -106,15 +100,9 @@ Isometry3d onCorner() {
   return pose(Vector3d::Zero(), std::acos(1.0 / std::sqrt(3.0)), {1, -1, 0});
 }
 
-CycleRequest refined() {
-  CycleRequest request;
-  request.refine = Refinement::kDeepest;
-  return request;
-}
-
 TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
   const TriangleMesh cube = boxMesh({kHalf, kHalf, kHalf});
-  const auto scene = build({body("ridge", meshShape(cube)), body("cube", meshShape(cube))}, exactDepths());
+  const auto scene = build({body("ridge", meshShape(cube)), body("cube", meshShape(cube))}, optionsForContacts());
   const auto at = [](double y, double height) {
     return translation({0.0123, y, kEdge + kCorner + height}) * onCorner();
   };
@@ -126,7 +114,7 @@ TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
   const CycleMotion motion = cycle(double(poses.size() - 1),
                                    {std::vector<Isometry3d>(poses.size(), pose({0, 0, 0}, kPi / 4, {1, 0, 0})), poses});
   Monitor monitor(scene, soft());
-  const PairResult pair = joined(monitor, motion, refined()).pairs[0];
+  const PairResult pair = joined(monitor, motion, {}).pairs[0];
   ASSERT_TRUE(pair.first_touch);
   EXPECT_LE(pair.first_touch->enter, 0.0313 / 0.083);
   EXPECT_GE(pair.first_touch->exit, 11.0);  // it was uncertain at first
@@ -135,7 +123,7 @@ TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
 TEST(ResultJoiner, NoPieceIsDeeperThanTheWholeSays) {
   const auto scene = build(
       {body("slab", meshShape(boxMesh({0.3, 0.3, kHalf}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
-      exactDepths());
+      optionsForContacts());
   for (const double max_error : {1e-2, 1e-4}) {
     MonitorOptions options = soft();
     options.max_error = max_error;
@@ -150,7 +138,7 @@ TEST(ResultJoiner, NoPieceIsDeeperThanTheWholeSays) {
                                         at(second, -half_angle), at(second, half_angle)};
     const CycleMotion motion = cycle(4.0, {std::vector<Isometry3d>(poses.size(), Isometry3d::Identity()), poses});
     Monitor monitor(scene, options);
-    const ContactPoint deepest = joined(monitor, motion, refined()).pairs[0].deepest;
+    const ContactPoint deepest = joined(monitor, motion, {}).pairs[0].deepest;
     EXPECT_GE(deepest.depth + deepest.depth_error, second - 1e-9) << max_error;
   }
 }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "oracle/box_union.h"
+#include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "scene/body_options.h"
 #include "scene/union_depth.h"
@@ -115,53 +116,58 @@ TEST(UnionDepth, ABladeAtASeam) {
   const std::vector<OrientedBox> halves = {boxAt({-0.05, 0, 0}, {0.05, 0.1, 0.1}),
                                            boxAt({0.05, 0, 0}, {0.05, 0.1, 0.1})};
   constexpr double kDepth = 0.03;
-  BodyOptions options = optionsForContacts();
-  options.exact_depths = true;
   for (const As as : {As::kPrimitives, As::kMeshes}) {
     const auto scene =
-        build({bodyOf("block", halves, as), body("blade", Primitive(Box::fromSize({0.0004, 0.05, 0.05})))}, options);
-    for (const Refinement refine : {Refinement::kNone, Refinement::kDeepest})
-      for (const double x : {0.0, 0.001, 0.02}) {
-        Monitor monitor(scene, soft());
-        CycleRequest request;
-        request.max_points = 1000;
-        request.refine = refine;
-        const Isometry3d X_WP = translation({x, 0.003, 0.1 - kDepth + 0.025});
-        const PairResult pair =
-            monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X_WP)}), request).pairs.front();
-        EXPECT_EQ(pair.verdict, Verdict::kContact);
-        const ContactPoint& deepest = pair.deepest;
-        const double rounding = 1e-6 + pair.contact_error.total();
-        EXPECT_GE(deepest.depth + deepest.depth_error, kDepth - 1e-6) << x << ": " << deepest.depth;
-        EXPECT_LE(deepest.depth, kDepth + rounding) << x;
-        for (const ContactPoint& point : pair.points) {
-          // Points of the blade in the block, and of the block, also of its faces at the seam, in the blade.
-          const double in_block = -distanceToUnion(halves, point.p_W);
-          const double in_blade = -distanceToUnion({boxAt(X_WP.translation(), {0.0002, 0.025, 0.025})}, point.p_W);
-          ASSERT_LE(std::min(std::abs(point.depth - in_block), std::abs(point.depth - in_blade)),
-                    point.depth_error + 1e-6)
-              << point.p_W.transpose();
-        }
+        build({bodyOf("block", halves, as), body("blade", Primitive(Box::fromSize({0.0004, 0.05, 0.05})))},
+              optionsForContacts());
+    for (const double x : {0.0, 0.001, 0.02}) {
+      Monitor monitor(scene, soft());
+      CycleRequest request;
+      request.max_points = 1000;
+      const Isometry3d X_WP = translation({x, 0.003, 0.1 - kDepth + 0.025});
+      const PairResult pair =
+          monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(X_WP)}), request).pairs.front();
+      EXPECT_EQ(pair.verdict, Verdict::kContact);
+      EXPECT_TRUE(pair.measured);
+      EXPECT_NEAR(pair.deepest.depth, kDepth, 5e-5) << x;
+      EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, kDepth - 1e-9) << x;
+      EXPECT_LT(pair.deepest.depth_error, 1e-4) << x;
+      EXPECT_NEAR(std::abs(pair.deepest.normal_W.z()), 1.0, 1e-9) << x;
+      for (const ContactPoint& point : pair.points) {
+        // Points of the blade in the block, and of the block, also of its faces at the seam, in the blade.
+        const double in_block = -distanceToUnion(halves, point.p_W);
+        const double in_blade = -distanceToUnion({boxAt(X_WP.translation(), {0.0002, 0.025, 0.025})}, point.p_W);
+        ASSERT_LE(std::min(std::abs(point.depth - in_block), std::abs(point.depth - in_blade)),
+                  point.depth_error + 1e-6)
+            << point.p_W.transpose();
       }
+    }
   }
 }
 
-/// Parts that do not meet are as before.
-TEST(UnionDepth, PartsApartHaveTheErrorsOfOne) {
-  const std::vector<OrientedBox> apart = {boxAt({-0.3, 0, 0}, {0.1, 0.1, 0.1}), boxAt({0.3, 0, 0}, {0.1, 0.1, 0.1})};
-  BodyOptions options = optionsForContacts();
-  options.exact_depths = true;
-  const auto scene = build({bodyOf("block", apart, As::kPrimitives), body("ball", Primitive(Sphere{0.05}))}, options);
-  for (const Refinement refine : {Refinement::kNone, Refinement::kDeepest}) {
-    Monitor monitor(scene, soft());
-    CycleRequest request;
-    request.refine = refine;
-    const PairResult pair =
-        monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0.3, 0, 0.14}))}), request)
-            .pairs.front();
-    EXPECT_EQ(pair.verdict, Verdict::kContact);
-    EXPECT_LT(pair.deepest.depth_error, 1e-3);
-    EXPECT_NEAR(pair.deepest.depth, 0.01, 1e-3);
+/// A ball pressed into a body of several parts, wherever they meet: the depth is that in all of them together.
+TEST(UnionDepth, IsThatOfAllParts) {
+  Random random(3);
+  for (const auto& parts : {twoCubes(), stairs()}) {
+    for (const As as : {As::kPrimitives, As::kMeshes}) {
+      const auto scene = build({bodyOf("parts", parts, as), body("pin", Primitive(Box::fromSize({2e-4, 2e-4, 2e-4})))},
+                               optionsForContacts());
+      Monitor monitor(scene, soft());
+      int deep = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const Vector3d p(uniform(random, -1.0, 1.0), uniform(random, -0.5, 0.5), uniform(random, -0.5, 0.5));
+        const double truth = -distanceToUnion(parts, p);
+        if (truth < 1e-3) continue;
+        monitor.reset();
+        const PairResult pair =
+            monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation(p))}), {}).pairs.front();
+        ASSERT_EQ(pair.verdict, Verdict::kContact);
+        EXPECT_NEAR(pair.deepest.depth, truth, 1.8e-4 + pair.deepest.depth_error) << p.transpose();  // the pin's corner
+        EXPECT_LT(pair.deepest.depth_error, 1e-4);
+        ++deep;
+      }
+      EXPECT_GT(deep, 50);
+    }
   }
 }
 

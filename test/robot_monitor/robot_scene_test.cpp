@@ -334,13 +334,11 @@ TEST(RobotScene, IsTheLongForm) {
   BodyOptions options = optionsForContacts();
   const double sampled = samplingTolerance(monitor.max_error, monitor.chords.tolerance);
   setMotionErrors(sampled, monitor.chords.tolerance, options);
-  options.exact_depths = true;
   const auto built =
       std::make_shared<const Scene>(buildScene(description, planScene(description, planOptions(options)), options));
   MotionSampling sampling;
   sampling.tolerance = sampled;
   CycleRequest request;
-  request.refine = Refinement::kDeepest;
   const CycleResult longer = checkMotion(
       built, monitor, planAlong(robot, completePlan(robot, swing(0.0, 1.5), {}, {}), bodiesOf(*built, robot), sampling),
       request);

@@ -73,7 +73,6 @@ TEST(Parameters, TheDocumentedParametersAreTheDefaults) {
   EXPECT_EQ(documented.max_cycle_time, defaults.max_cycle_time);
   EXPECT_EQ(documented.request_time, defaults.request_time);
   EXPECT_EQ(documented.trigger.kind, defaults.trigger.kind);
-  EXPECT_EQ(documented.refine, defaults.refine);
   EXPECT_EQ(documented.overlapping_pairs, defaults.overlapping_pairs);
   EXPECT_EQ(documented.robot.check_adjacent, defaults.robot.check_adjacent);
   EXPECT_EQ(documented.log_contacts, defaults.log_contacts);
@@ -193,16 +192,6 @@ TEST(Parameters, PairsByRule) {
   EXPECT_NE(errorOf(many).find("expected at most 1000 pairs"), std::string::npos);
   EXPECT_NE(errorOf("overlapping_pairs: ignore").find("expected one of neighbours rest leave_out check"),
             std::string::npos);
-}
-
-TEST(Parameters, WhatIsMeasuredOnTrianglesIsPreparedForIt) {
-  const MonitorParameters defaults = parse("");
-  EXPECT_EQ(defaults.refine, Refinement::kNone);
-  EXPECT_FALSE(defaults.scene.exact_depths);
-  const MonitorParameters refined = parse("refine: deepest");
-  EXPECT_EQ(refined.refine, Refinement::kDeepest);
-  EXPECT_TRUE(refined.scene.exact_depths);
-  EXPECT_NE(errorOf("refine: all").find("expected one of none deepest"), std::string::npos);
 }
 
 TEST(Parameters, MaxErrorIsOfVerdictsAndLeavesFieldsAndShells) {

@@ -117,7 +117,6 @@ class Gripper {
     parameters.urdf = test::readText(std::string(SDF_CCD_SOURCE_DIR) + "/test/ros/gripper.urdf");
     parameters.scene.cache_directory.clear();
     parameters.scene.shell.spacing = 0.004;
-    parameters.scene.exact_depths = true;
     parameters.world = {object("wall", Box::fromSize({0.02, 0.6, 0.1}), 0.146), object("ball", Sphere{0.05}, 1.0)};
     const PackageFinder packages = [](const std::string&) { return std::string(SDF_CCD_SOURCE_DIR); };
     described_ =
@@ -162,7 +161,6 @@ class Gripper {
   static CycleRequest request() {
     CycleRequest request{true, 20};
     request.wrenches = request.skipped_pairs = true;
-    request.refine = Refinement::kDeepest;
     return request;
   }
 

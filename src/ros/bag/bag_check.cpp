@@ -19,7 +19,6 @@ void checkBag(const RecordedMotion& motion, const MonitorParameters& parameters,
   ros::Time::init();  // lets others read the clock that setNow() sets
   CycleRequest request;
   request.max_points = parameters.max_points;
-  request.refine = parameters.refine;
   TfTracker::Step last = TfTracker::Step::kWaiting;
   ros::Time last_cycle;  // 0: none since the last jump of time
   ros::Time last_stamp = motion.end();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "common/refuse.h"
@@ -50,6 +51,15 @@ Isometry3d checkedPose(const Point& p, const geometry_msgs::Quaternion& q,
   const std::optional<Isometry3d> pose = poseOf({p.x, p.y, p.z}, given);
   if (!pose) refuse(std::string(orientation) + " is not a unit quaternion");
   return *pose;
+}
+
+/// Zero unless both bounds are known.
+TimeInterval touchOf(const std::optional<Interval>& touch, const CycleContext& cycle) {
+  TimeInterval message;
+  if (!touch || !std::isfinite(touch->enter) || !std::isfinite(touch->exit)) return message;
+  message.start = timeAfter(cycle.start, touch->enter);
+  message.end = timeAfter(cycle.start, touch->exit);
+  return message;
 }
 
 }  // namespace
@@ -137,7 +147,9 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
     message.intervals[i].start = timeAfter(cycle.start, pair.intervals[i].enter);
     message.intervals[i].end = timeAfter(cycle.start, pair.intervals[i].exit);
   }
-  message.apart_until = pair.first_touch ? timeAfter(cycle.start, pair.first_touch->enter) : ros::Time();
+  message.measured = pair.measured;
+  message.first_touch = touchOf(pair.first_touch, cycle);
+  message.last_touch = touchOf(pair.last_touch, cycle);
   message.in_contact_at_samples = touchesAtSamples(pair, cycle);
   if (pair.intervals.empty()) {
     message.first_contact = ros::Time();

@@ -215,7 +215,6 @@ void CollisionMonitor::cycle() {
   CycleRequest request = outputs_->request(parameters_.max_points);
   request.contacts |= parameters_.log_contacts;
   request.max_time = cycleTimeLimit(parameters_);
-  request.refine = parameters_.refine;
   const TfTracker::Step step = loop_->step(ros::Time::now(), request);
   if (step == TfTracker::Step::kCycle) return publishCycle();
   listener_->report(health_watch_.health());

@@ -203,7 +203,6 @@ Queries::Queries(std::shared_ptr<const CheckedWorld> world, const DescribedScene
       sampling_(parameters.tf.sampling),
       options_(parameters.monitor),
       max_points_(parameters.max_points),
-      refine_(parameters.refine),
       max_age_(parameters.tf.max_latency),
       history_(history),
       limits_(limits),
@@ -280,7 +279,6 @@ bool Queries::checkOnce(const QueryMotion::Request& request, QueryMotion::Respon
   }
   CycleRequest wanted;
   wanted.max_points = max_points_;
-  wanted.refine = refine_;
   wanted.margin = request.margin;
   PairTimes times(world->scene().pairs.size());
   wanted.times = &times;
@@ -336,7 +334,6 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
   wanted.first_only = !request.all;
   wanted.margin = request.margin;
   wanted.list_pairs = request.list_pairs;
-  wanted.refine = refine_;
   PairTimes times(scene.pairs.size());
   wanted.times = &times;
   const std::size_t per_piece = kMotionsPerThread * arena_.threads();

@@ -80,7 +80,6 @@ class Queries {
   MotionSampling sampling_;
   MonitorOptions options_;
   int max_points_;
-  Refinement refine_;
   double max_age_;  // older transforms are mentioned in a note [s]
   const TfHistory& history_;
   ros::Publisher marker_publisher_;  // if it is empty, nothing is drawn

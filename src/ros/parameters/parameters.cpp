@@ -186,6 +186,7 @@ struct GoneParameter {
 };
 constexpr GoneParameter kGone[] = {
     {"", "allow_http", "nothing is read over the network: put meshes into files or packages"},
+    {"", "refine", "all contacts are measured on surfaces"},
     {"field", "sample_bits", "samples have 16 bits"},
 };
 
@@ -268,8 +269,6 @@ MonitorParameters parseParameters(Setting tree, const std::string& name) {
   if (parameters.proximity.promise) parameters.proximity.promise->map_distance = parameters.live_map.padding;
   parameters.max_points = reader.integer("max_points", 20, 0);
   parameters.log_contacts = reader.flag("log_contacts", true);
-  parameters.refine = reader.choice("refine", {"none", "deepest"}, parameters.refine);
-  parameters.scene.exact_depths = parameters.refine == Refinement::kDeepest;
   parameters.markers.scale = reader.positive("marker_scale", parameters.markers.scale);
   parameters.markers.hold = reader.notNegative("marker_hold", parameters.markers.hold);
   // The descriptions may also be set in this namespace.

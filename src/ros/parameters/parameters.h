@@ -78,7 +78,6 @@ struct MonitorParameters {
   double max_cycle_time = 0.0;  ///< as the parameter: see cycleTimeLimit()
   TriggerOptions trigger;
   int max_points = 0;
-  Refinement refine = Refinement::kNone;  ///< CycleRequest::refine of cycles, bags and planned motions
   /// Parameters that nothing reads: those that are gone, with their successors, and unknown ones, with suggestions.
   /// Unknown ones in groups are errors.
   std::vector<std::string> unused;

@@ -107,8 +107,8 @@ bool isOnlyAField(const Planned& large, const Planned& small) {
   return large.is_large && !small.is_large && large.extent.longest_side > 2.0 * small.extent.ball.radius;
 }
 
-PlannedPair planPair(int i, int k, const SceneDescription& description, const PlanOptions& options,
-                     std::vector<Planned>& planned, std::vector<BodyNeeds>& needs) {
+PlannedPair planPair(int i, int k, const SceneDescription& description, std::vector<Planned>& planned,
+                     std::vector<BodyNeeds>& needs) {
   const BodyDescription &a = description.bodies[i], &b = description.bodies[k];
   Planned &of_a = planned[i], &of_b = planned[k];
   of_a.has_pair = of_b.has_pair = true;
@@ -120,8 +120,8 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, const Pl
   const bool a_shell = a_can && !(b_can && isOnlyAField(of_a, of_b)),
              b_shell = b_can && !(a_can && isOnlyAField(of_b, of_a));
   // A field also tells where a body without a shell is.
-  if (b_shell || !a_can || (a_can && b_can && options.both_fields)) needs[i].field = true;
-  if (a_shell || !b_can || (a_can && b_can && options.both_fields)) needs[k].field = true;
+  if (b_shell || !a_can) needs[i].field = true;
+  if (a_shell || !b_can) needs[k].field = true;
   needs[i].shell |= a_shell;
   needs[k].shell |= b_shell;
   return {i, k, a_shell, b_shell};
@@ -167,7 +167,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
         std::tie(decision->body_a, decision->body_b, decision->a, decision->b) = std::tie(a.name, b.name, i, k);
         plan.left_out.push_back(std::move(*decision));
       } else {
-        plan.pairs.push_back(planPair(i, k, description, options, planned, plan.needs));
+        plan.pairs.push_back(planPair(i, k, description, planned, plan.needs));
       }
     }
   }

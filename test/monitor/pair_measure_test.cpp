@@ -1,4 +1,4 @@
-#include "monitor/contact_refinement.h"
+#include "monitor/pair_measure.h"
 
 #include <gtest/gtest.h>
 
@@ -6,28 +6,14 @@
 #include "oracle/scene_case.h"
 #include "sdf_ccd/contacts.h"
 
-namespace sdf_ccd::contact_refinement_test {
+namespace sdf_ccd::pair_measure_test {
 
 using namespace test;
 
-BodyOptions coarse(bool exact_depths = true) {
+BodyOptions coarse() {
   BodyOptions options = fine(0.02);
   options.field.cells = 12;
-  options.exact_depths = exact_depths;
   return options;
-}
-
-/// The options with which the monitor prepares robots.
-BodyOptions usual() {
-  BodyOptions options = optionsForContacts();
-  options.exact_depths = true;
-  return options;
-}
-
-CycleRequest refined() {
-  CycleRequest request;
-  request.refine = Refinement::kDeepest;
-  return request;
 }
 
 constexpr double kHalf = 0.05, kTop = 0.02;  // half sizes of a cube, and of the slab that it lands on [m]
@@ -56,27 +42,22 @@ std::vector<Landing> landings() {
 }
 
 /// The edge of a board, which needs no shell against small bodies, is deep inside a ball.
-TEST(ContactRefinement, ALargeBodysSurfaceIsSearchedForInsideASmallOne) {
+TEST(PairMeasure, ALargeBodysSurfaceIsSearchedForInsideASmallOne) {
   const SceneDescription description{
       {body("board", Primitive(Box::fromSize({0.8, 0.3, 0.018})), true), body("ball", meshShape(icosphere(0.05, 4)))},
       {}};
-  const BodyOptions options = usual();
+  const BodyOptions options = optionsForContacts();
   const CycleMotion motion =
       cycle(0.1, {still(Isometry3d::Identity()), {translation({0.0131, 0.21, 0.0}), translation({0.0131, 0.17, 0.0})}});
-  for (const bool with_fields : {true, false}) {
-    PlanOptions plan = planOptions(options);
-    if (!with_fields) plan.both_fields = false;
-    Monitor monitor(std::make_shared<const Scene>(buildScene(description, planScene(description, plan), options)),
-                    soft());
-    const PairResult pair = monitor.run(motion, refined()).pairs[0];
-    EXPECT_TRUE(pair.refined);
-    EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, 0.0298);
-    EXPECT_EQ(std::abs(pair.deepest.depth - 0.03) < 3e-4, with_fields);
-    EXPECT_EQ(pair.deepest.depth_error < 2e-4, with_fields);
-  }
+  Monitor monitor(build({description.bodies[0], description.bodies[1]}, options), soft());
+  const PairResult pair = monitor.run(motion, {}).pairs[0];
+  EXPECT_TRUE(pair.measured);
+  EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, 0.03);
+  EXPECT_NEAR(pair.deepest.depth, 0.03, 3e-4);
+  EXPECT_LT(pair.deepest.depth_error, 2e-4);
 }
 
-TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
+TEST(PairMeasure, DepthPlaceAndBeginOfALandingAreExact) {
   // From 6 mm above to 3 mm deep in 90 ms: the cube touches at 60 ms.
   for (const Landing& landing : landings()) {
     const BodyDescription slab = body("slab", landing.slab), cube = body("cube", landing.cube);
@@ -85,7 +66,7 @@ TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
     const auto at = [](double height) { return translation({0.013, 0.021, kTop + kCorner + height}) * onCorner(); };
     std::vector<std::vector<Isometry3d>> poses{still(Isometry3d::Identity()), {at(0.006), at(-0.003)}};
     if (landing.is_swapped) std::swap(poses[0], poses[1]);
-    CycleRequest request = refined();
+    CycleRequest request = {};
     request.max_points = 5;
     const PairResult& pair = monitor.run(cycle(0.09, poses), request).pairs[0];
     ASSERT_EQ(pair.verdict, Verdict::kContact);
@@ -108,7 +89,7 @@ TEST(ContactRefinement, DepthPlaceAndBeginOfALandingAreExact) {
 }
 
 /// A cube swings past with an edge down, deepest halfway.
-TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
+TEST(PairMeasure, FindsTheTurnOfATurnedMotion) {
   const auto scene = build(
       {body("slab", meshShape(boxMesh({0.3, 0.3, kTop}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
       coarse());
@@ -123,7 +104,7 @@ TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
     };
     monitor.reset();
     const CycleMotion motion = cycle(1.0, {still(Isometry3d::Identity()), {at(-half_angle), at(half_angle)}});
-    const PairResult& pair = monitor.run(motion, refined()).pairs[0];
+    const PairResult& pair = monitor.run(motion, {}).pairs[0];
     ASSERT_EQ(pair.verdict, Verdict::kContact);
     EXPECT_LE(pair.deepest.depth, depth + 1e-12);
     EXPECT_LE(depth, pair.deepest.depth + pair.deepest.depth_error);
@@ -136,10 +117,9 @@ TEST(ContactRefinement, FindsTheTurnOfATurnedMotion) {
   }
 }
 
-TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
+TEST(PairMeasure, ContactDoesNotBeginBeforeTheBodiesTouch) {
   // Shells and fields report contact even before that, if points are close to each other.
   BodyOptions options = optionsForContacts(0.005);
-  options.exact_depths = true;
   const auto scene = build(
       {body("ball", meshShape(icosphere(0.05, 2))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))}, options);
   Monitor monitor(scene, soft());
@@ -150,7 +130,7 @@ TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
     };
     monitor.reset();
     const PairResult& pair =
-        monitor.run(cycle(0.1, {{at(-0.01), at(0.002)}, still(Isometry3d::Identity())}), refined()).pairs[0];
+        monitor.run(cycle(0.1, {{at(-0.01), at(0.002)}, still(Isometry3d::Identity())}), {}).pairs[0];
     if (!pair.first_touch) continue;
     ++touching;
     is_cut += pair.intervals[0].enter == pair.first_touch->enter;
@@ -161,10 +141,10 @@ TEST(ContactRefinement, ContactDoesNotBeginBeforeTheBodiesTouch) {
   EXPECT_GT(is_cut, 0);
 }
 
-TEST(ContactRefinement, DoesNotLastWhileTheBodiesAreApart) {
+TEST(PairMeasure, DoesNotLastWhileTheBodiesAreApart) {
   const auto scene = build(
       {body("a", meshShape(boxMesh({kHalf, kHalf, kHalf}))), body("b", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
-      usual());
+      optionsForContacts());
   Monitor monitor(scene, soft());
   const double edge = std::sqrt(2.0) * kHalf;
   const Isometry3d X_WA = pose({0, 0, 0}, kPi / 4, {1, 0, 0});
@@ -174,7 +154,7 @@ TEST(ContactRefinement, DoesNotLastWhileTheBodiesAreApart) {
   // Crossing edges touch briefly, 0.2 mm deep, away from all shell points; then they are 0.2 m apart.
   const CycleMotion motion =
       cycle(3.0, {std::vector<Isometry3d>(4, X_WA), {at(0.005), at(-2e-4), at(0.2), at(-0.008)}});
-  const PairResult& pair = monitor.run(motion, refined()).pairs[0];
+  const PairResult& pair = monitor.run(motion, {}).pairs[0];
   ASSERT_TRUE(pair.first_touch);
   EXPECT_NEAR(pair.first_touch->enter, 0.96, 0.03);
   ASSERT_GE(pair.intervals.size(), 2u);
@@ -183,23 +163,23 @@ TEST(ContactRefinement, DoesNotLastWhileTheBodiesAreApart) {
   for (const Interval& interval : pair.intervals) EXPECT_FALSE(interval.enter < 1.5 && interval.exit > 1.5);
 }
 
-TEST(ContactRefinement, OfWhatIsWithinAtFirstNothingIsCut) {
+TEST(PairMeasure, OfWhatIsWithinAtFirstNothingIsCut) {
   const auto scene =
       build({body("block", meshShape(boxMesh({0.1, 0.1, 0.1}))), body("cube", meshShape(boxMesh({0.01, 0.01, 0.01})))},
             coarse());
   Monitor monitor(scene, soft());
   const PairResult& pair =
       monitor
-          .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, 0.06}), translation({0, 0, 0.13})}}),
-               refined())
+          .run(cycle(0.1, {still(Isometry3d::Identity()), {translation({0, 0, 0.06}), translation({0, 0, 0.13})}}), {})
           .pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
-  EXPECT_FALSE(pair.first_touch);
+  ASSERT_TRUE(pair.first_touch);
+  EXPECT_EQ(pair.first_touch->exit, 0.0);
   ASSERT_FALSE(pair.intervals.empty());
   EXPECT_EQ(pair.intervals.front().enter, 0.0);
 }
 
-TEST(ContactRefinement, OfWhatRestsFlatIsTight) {
+TEST(PairMeasure, OfWhatRestsFlatIsTight) {
   const auto scene = build(
       {body("slab", meshShape(boxMesh({0.3, 0.3, kTop}))), body("cube", meshShape(boxMesh({kHalf, kHalf, kHalf})))},
       coarse());
@@ -207,7 +187,7 @@ TEST(ContactRefinement, OfWhatRestsFlatIsTight) {
   const Isometry3d X = pose({0.03, 0.02, 0}, 0.7, {0, 0, 1});
   for (const double depth : {1e-5, 1e-3}) {
     const auto poses = still(translation({0, 0, kTop + kHalf - depth}) * X);
-    const PairResult& pair = monitor.run(cycle(1e-3, {still(Isometry3d::Identity()), poses}), refined()).pairs[0];
+    const PairResult& pair = monitor.run(cycle(1e-3, {still(Isometry3d::Identity()), poses}), {}).pairs[0];
     ASSERT_EQ(pair.verdict, Verdict::kContact);
     EXPECT_NEAR(pair.deepest.depth, depth, 5e-5);  // the resolution
     EXPECT_LE(depth, pair.deepest.depth + pair.deepest.depth_error);
@@ -218,49 +198,48 @@ TEST(ContactRefinement, OfWhatRestsFlatIsTight) {
   }
 }
 
-TEST(ContactRefinement, WhatLiesInsideHasNoFirstTouch) {
+TEST(PairMeasure, WhatLiesInsideTouchesAllTheTime) {
   const auto scene =
       build({body("slab", meshShape(boxMesh({0.3, 0.3, 0.1}))), body("cube", meshShape(boxMesh({0.01, 0.01, 0.01})))},
             coarse());
   Monitor monitor(scene, soft());
   const PairResult& pair =
-      monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.06}))}), refined()).pairs[0];
+      monitor.run(cycle(0.1, {still(Isometry3d::Identity()), still(translation({0, 0, 0.06}))}), {}).pairs[0];
   EXPECT_EQ(pair.verdict, Verdict::kContact);
   EXPECT_NEAR(pair.deepest.depth, 0.05, 1e-9);  // its lower corners
   EXPECT_LE(pair.deepest.depth_error, 1e-4);
-  EXPECT_FALSE(pair.first_touch);
+  ASSERT_TRUE(pair.first_touch && pair.last_touch);
+  EXPECT_EQ(pair.first_touch->exit, 0.0);
+  EXPECT_EQ(pair.last_touch->enter, 0.1);
 }
 
-TEST(ContactRefinement, OnlyWhereItIsAskedForAndPossible) {
+TEST(PairMeasure, OnlyWhereBothBodiesHaveSolids) {
   const Shape slab = meshShape(boxMesh({0.3, 0.3, kTop}));
   const std::vector<std::vector<Isometry3d>> poses{still(Isometry3d::Identity()),
                                                    still(translation({0, 0, kTop + kHalf - 0.003}))};
-  const auto run = [&](const Shape& other, const BodyOptions& options, const CycleRequest& request) {
-    Monitor monitor(build({body("slab", slab), body("other", other)}, options), soft());
-    return monitor.run(cycle(0.1, poses), request).pairs[0];
+  const auto run = [&](const Shape& other) {
+    Monitor monitor(build({body("slab", slab), body("other", other)}, coarse()), soft());
+    return monitor.run(cycle(0.1, poses), {}).pairs[0];
   };
-  const Shape cube = meshShape(boxMesh({kHalf, kHalf, kHalf}));
-  EXPECT_TRUE(run(cube, coarse(), refined()).first_touch);
-  EXPECT_FALSE(run(cube, coarse(), {}).first_touch);
-  EXPECT_FALSE(run(cube, coarse(false), refined()).first_touch);
+  EXPECT_TRUE(run(meshShape(boxMesh({kHalf, kHalf, kHalf}))).first_touch);
   const Shape open = meshShape(openBox(Vector3d::Constant(-kHalf), Vector3d::Constant(kHalf)));
-  const PairResult of_open = run(open, coarse(), refined());
+  const PairResult of_open = run(open);
+  EXPECT_FALSE(of_open.measured);
   EXPECT_FALSE(of_open.first_touch);
   EXPECT_NE(of_open.verdict, Verdict::kClear);
-  const auto with_half_space =
-      run(Primitive(HalfSpace{}), coarse(), refined()).first_touch;  // all of the slab is in it
+  const auto with_half_space = run(Primitive(HalfSpace{})).first_touch;  // all of the slab is in it
   ASSERT_TRUE(with_half_space);
   EXPECT_EQ(with_half_space->enter, 0.0);
 }
 
-TEST(ContactRefinement, OfRoundBodiesToo) {
+TEST(PairMeasure, OfRoundBodiesToo) {
   const auto scene =
       build({body("ball", Primitive(Sphere{0.03})), body("post", Primitive(Cylinder::fromRadiusAndLength(0.02, 0.2)))},
             coarse());
   Monitor monitor(scene, soft());
   const auto at = [](double depth) { return translation({0.05 - depth, 0, 0}); };
   const PairResult& pair =
-      monitor.run(cycle(0.1, {{at(-0.002), at(0.002)}, still(Isometry3d::Identity())}), refined()).pairs[0];
+      monitor.run(cycle(0.1, {{at(-0.002), at(0.002)}, still(Isometry3d::Identity())}), {}).pairs[0];
   ASSERT_EQ(pair.verdict, Verdict::kContact);
   EXPECT_NEAR(pair.deepest.depth, 0.002, 1e-4);
   EXPECT_LE(0.002, pair.deepest.depth + pair.deepest.depth_error);
@@ -271,7 +250,7 @@ TEST(ContactRefinement, OfRoundBodiesToo) {
 }
 
 /// The ball's surface is deepest on the board's middle plane, wherever its centre is; or the board's surface in it.
-TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
+TEST(PairMeasure, OfBallsWhoseCentreIsInsideToo) {
   struct Case {
     double radius, half, beside, depth;
   };
@@ -285,7 +264,7 @@ TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
     for (const Shape& board : boards) {
       Monitor monitor(build({body("board", board), body("ball", Primitive(Sphere{radius}))}, coarse()), soft());
       const auto poses = still(translation({0.1, 0.05, beside}));
-      const PairResult& pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), poses}), refined()).pairs[0];
+      const PairResult& pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), poses}), {}).pairs[0];
       EXPECT_EQ(pair.verdict, Verdict::kContact);
       EXPECT_NEAR(pair.deepest.depth, depth, 2e-4) << radius << " in " << half << " at " << beside;
       EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, depth - 1e-9);
@@ -294,19 +273,19 @@ TEST(ContactRefinement, OfBallsWhoseCentreIsInsideToo) {
   }
 }
 
-TEST(ContactRefinement, BoundsOnlyTheContactWithTheDeepestPoint) {
+TEST(PairMeasure, BoundsOnlyTheContactWithTheDeepestPoint) {
   BodyDescription posts = body("posts", Primitive(Box::fromSize({0.06, 0.06, 0.2})));
   posts.geometry.push_back({Primitive(Box::fromSize({0.06, 0.06, 0.2})), translation({0.3, 0, 0}), "second"});
-  const auto scene = build({posts, body("tool", Primitive(Box::fromSize({0.04, 0.04, 0.04})))}, usual());
+  const auto scene = build({posts, body("tool", Primitive(Box::fromSize({0.04, 0.04, 0.04})))}, optionsForContacts());
   Monitor monitor(scene, {});
   const CycleMotion motion =
       cycle(1.0, {still(Isometry3d::Identity()), {translation({-0.1, 0.048, 0}), translation({0.4, 0.028, 0})}});
   ContactTracker tracker(*scene);
-  tracker.update({monitor.run(motion, refined()), motion, motion.times, std::chrono::seconds(1000)});
+  tracker.update({monitor.run(motion, {}), motion, motion.times, std::chrono::seconds(1000)});
   ASSERT_EQ(tracker.size(), 2u);
   EXPECT_NEAR(tracker[0].deepest.depth, 0.0077, 1e-3);
   EXPECT_LT(tracker[0].deepest.depth_error, 1e-3);
   EXPECT_NEAR(tracker[1].deepest.depth, 0.0192, 2e-3);
 }
 
-}  // namespace sdf_ccd::contact_refinement_test
+}  // namespace sdf_ccd::pair_measure_test

@@ -1,0 +1,83 @@
+#include "body_solid.h"
+
+#include <algorithm>
+
+namespace sdf_ccd {
+namespace {
+
+/// A mesh and how far it may be from the body's surface [m].
+struct Boundary {
+  std::shared_ptr<const Solid> solid;  // null if it is not certain
+  double deviation = 0.0;
+};
+
+/// Faces inside the solid would make depths too small.
+bool isCertain(const Solid& solid) {
+  return solid.closed() && solid.report().failure.empty() && !(solid.report().doubtful_area > 0.0);
+}
+
+Boundary boundaryOf(PooledMesh& pooled) {
+  if (pooled.quality.doubtful) return {};
+  const SolidSource source(pooled.mesh, pooled.made);
+  if (isCertain(source.solid())) return {pooled.made.solid, 0.0};
+  if (isClosed(pooled.mesh)) return {};
+  const ClosedSolid& closed = source.closed();
+  if (!closed.hasCracksAlone() || !isCertain(closed.solid())) return {};
+  const std::vector<double>& reach = closed.openings().reach;
+  const double widest = reach.empty() ? 0.0 : *std::max_element(reach.begin(), reach.end());
+  return {{pooled.made.closed, &closed.solid()}, closed.moved() + widest};
+}
+
+/// Fine enough for depths to a tenth of the default error.
+Boundary boundaryOf(const Primitive& primitive) {
+  constexpr double kFine = 5e-6, kFineOfSize = 1e-5;
+  const double fine = std::max(kFine, kFineOfSize * boundingBox(primitive).sizes().maxCoeff());
+  const bool is_exact = std::holds_alternative<Box>(primitive);
+  return {std::make_shared<const Solid>(tessellate(primitive, fine)), is_exact ? 0.0 : fine};
+}
+
+Boundary boundaryOf(const GeometryDescription& element, MeshPool& pool) {
+  const auto* primitive = std::get_if<Primitive>(&element.shape);
+  return primitive ? boundaryOf(*primitive) : boundaryOf(pool.find(element));
+}
+
+std::shared_ptr<const DepthSolid> ownSolidOf(const BodyDescription& description, MeshPool& pool) {
+  std::vector<const GeometryDescription*> elements;
+  for (const GeometryDescription& geometry : description.geometry) {
+    if (geometry.watertight_voxels) return nullptr;
+    if (!isHalfSpace(geometry)) elements.push_back(&geometry);
+  }
+  if (elements.empty()) return nullptr;
+  const GeometryDescription& first = *elements.front();
+  if (elements.size() == 1) {
+    const auto* primitive = std::get_if<Primitive>(&first.shape);
+    const auto* ball = primitive ? std::get_if<Sphere>(primitive) : nullptr;
+    if (ball) return std::make_shared<const DepthSolid>(*ball, first.X_BG);
+    const Boundary boundary = boundaryOf(first, pool);
+    if (!boundary.solid) return nullptr;
+    return std::make_shared<const DepthSolid>(boundary.solid, first.X_BG, boundary.deviation);
+  }
+  TriangleMesh all;
+  double deviation = 0.0;
+  for (const GeometryDescription* element : elements) {
+    const Boundary boundary = boundaryOf(*element, pool);
+    if (!boundary.solid) return nullptr;
+    deviation = std::max(deviation, boundary.deviation);
+    all = merged(std::move(all), transformed(boundary.solid->boundary(), element->X_BG));
+  }
+  auto solid = std::make_shared<const Solid>(all);
+  if (!isCertain(*solid)) return nullptr;
+  return std::make_shared<const DepthSolid>(std::move(solid), Isometry3d::Identity(), deviation);
+}
+
+}  // namespace
+
+std::shared_ptr<const DepthSolid> solidOf(const BodyDescription& description, MeshPool& pool) {
+  WeakStore<DepthSolid>& shared = pool.content().solids;
+  const std::string key = pool.keys().keyOf(description);
+  if (auto known = shared.find(key)) return known;
+  auto made = ownSolidOf(description, pool);
+  return made ? shared.keep(key, std::move(made)) : nullptr;
+}
+
+}  // namespace sdf_ccd

@@ -1,0 +1,457 @@
+#include "depth_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sdf_ccd/cancel.h"
+
+namespace sdf_ccd {
+namespace {
+
+/// One value for each of a triangle's corners at the start of a motion, then at its end.
+using HullValues = std::array<double, 6>;
+
+/// The hull of these corners.
+struct Hull {
+  std::array<Vector3d, 6> corners;
+  Vector3d center = Vector3d::Zero();
+  double size = 0.0;  // no corner is farther from the center [m]
+};
+
+constexpr std::size_t kMostSides = 10;
+
+/// Upper bounds of the depth in a hull, each linear or convex between its corners, and their best weighted mean.
+class Bounds {
+ public:
+  explicit Bounds(const Hull& hull) : hull_(hull) {}
+
+  const Hull& hull() const { return hull_; }
+
+  /// The smallest upper bound.
+  double value() const { return value_; }
+
+  /// Shares of the corners in the place where it is attained, as far as the bounds tell.
+  const HullValues& place() const { return place_; }
+
+  void add(const HullValues& values, const DepthPlane& plane = {}) {
+    if (count_ == kMostSides) return;
+    sides_[count_] = values;
+    planes_[count_] = plane;
+    ++count_;
+    solve();
+  }
+
+  /// @return whether the plane holds in the whole hull.
+  bool addPlane(const DepthPlane& plane) {
+    HullValues values;
+    for (int k = 0; k < 6; ++k) {
+      if (!plane.holdsAt(hull_.corners[k])) return false;
+      values[k] = plane.depthBehind(hull_.corners[k]);
+    }
+    add(values, plane);
+    return true;
+  }
+
+  /// The planes of the largest weight.
+  template <std::size_t n>
+  void copyPlanes(std::array<DepthPlane, n>& planes) const {
+    std::array<std::size_t, kMostSides> order;
+    for (std::size_t i = 0; i < count_; ++i) order[i] = i;
+    std::sort(order.begin(), order.begin() + count_, [&](std::size_t i, std::size_t k) {
+      const bool is_i = planes_[i].radius > 0.0, is_k = planes_[k].radius > 0.0;
+      return is_i != is_k ? is_i : weights_[i] > weights_[k];
+    });
+    planes = {};
+    for (std::size_t i = 0; i < std::min(n, count_); ++i) planes[i] = planes_[order[i]];
+  }
+
+ private:
+  /// The weights for which the largest mean at a corner is smallest: a matrix game, solved as a linear program by the
+  /// simplex method (Dantzig 1951). Whatever weights it ends with, their mean is an upper bound.
+  void solve() {
+    constexpr int kMaxPivots = 40;
+    constexpr double kZero = 1e-12;
+    double least = kInfinity, most = -kInfinity;
+    for (std::size_t i = 0; i < count_; ++i)
+      for (const double value : sides_[i]) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    const double scale = most > least ? 1.0 / (most - least) : 0.0;
+    // Per corner a row: the scaled sides, then the slack variables, then the limit 1. The last row is the objective.
+    constexpr std::size_t kRows = 6, kColumns = kMostSides + 6;
+    std::array<std::array<double, kColumns + 1>, kRows + 1> table{};
+    std::array<std::size_t, kRows> basis;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      for (std::size_t i = 0; i < count_; ++i) table[row][i] = 1.0 + scale * (sides_[i][row] - least);
+      table[row][kMostSides + row] = table[row][kColumns] = 1.0;
+      basis[row] = kMostSides + row;
+    }
+    for (std::size_t i = 0; i < count_; ++i) table[kRows][i] = -1.0;
+    for (int pivot = 0; pivot < kMaxPivots; ++pivot) {
+      const auto& objective = table[kRows];
+      const std::size_t column = std::min_element(objective.begin(), objective.begin() + kColumns) - objective.begin();
+      if (!(objective[column] < -kZero)) break;
+      std::size_t out = kRows;
+      double ratio = kInfinity;
+      for (std::size_t row = 0; row < kRows; ++row) {
+        if (!(table[row][column] > kZero)) continue;
+        const double of_row = table[row][kColumns] / table[row][column];
+        if (of_row < ratio) out = row;
+        ratio = std::min(ratio, of_row);
+      }
+      if (out == kRows) break;
+      basis[out] = column;
+      const double inverse = 1.0 / table[out][column];
+      for (double& entry : table[out]) entry *= inverse;
+      for (std::size_t row = 0; row <= kRows; ++row) {
+        const double factor = table[row][column];
+        if (row == out || factor == 0.0) continue;
+        for (std::size_t k = 0; k <= kColumns; ++k) table[row][k] -= factor * table[out][k];
+      }
+    }
+    std::array<double, kMostSides> weights{};
+    HullValues place{};
+    double all_weights = 0.0, all_shares = 0.0;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      if (basis[row] < kMostSides) all_weights += weights[basis[row]] = std::max(0.0, table[row][kColumns]);
+      all_shares += place[row] = std::max(0.0, table[kRows][kMostSides + row]);
+    }
+    if (!(all_weights > 0.0 && all_shares > 0.0)) return;
+    double bound = -kInfinity;
+    for (std::size_t row = 0; row < kRows; ++row) {
+      double mean = 0.0;
+      for (std::size_t i = 0; i < count_; ++i) mean += weights[i] / all_weights * sides_[i][row];
+      bound = std::max(bound, mean);
+      place_[row] = place[row] / all_shares;
+    }
+    weights_ = weights;
+    value_ = std::min(value_, bound);
+  }
+
+  const Hull& hull_;
+  std::array<HullValues, kMostSides> sides_;
+  std::array<DepthPlane, kMostSides> planes_;
+  std::array<double, kMostSides> weights_{};
+  std::size_t count_ = 0;
+  double value_ = kInfinity;
+  HullValues place_{1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+};
+
+}  // namespace
+
+/// The search over one motion.
+class DepthSearch::Step {
+ public:
+  Step(DepthSearch& search, const TwoBodyMotion& motion, double travel, DeepestPoint& best)
+      : search_(search),
+        surface_(*search.surface_),
+        solid_(*search.solid_),
+        motion_(motion),
+        travel_(travel),
+        best_(best),
+        X_GP_{poseOf(0.0), poseOf(0.5), poseOf(1.0)} {}
+
+  bool isImproved() const { return improved_; }
+
+  /// Pushes the boxes of a node over a part of the motion.
+  void offerBoxes(int node_index, double start, double end) {
+    const BoxTree::Node& node = surface_.node(node_index);
+    for (int i = 0; i < node.count; ++i) {
+      Piece piece;
+      piece.start = start;
+      piece.end = end;
+      piece.corners.fill(surface_.origin() + Vector3d(node.center[0][i], node.center[1][i], node.center[2][i]));
+      piece.radius = node.reach[i];
+      piece.node = node.below[i];
+      piece.is_box = true;
+      add(piece);
+    }
+  }
+
+  void examine(Piece piece) {
+    if (piece.step != search_.step_) {
+      if (piece.end < 1.0) return;  // the part of an earlier motion that came before its end
+      piece.start = 0.0;
+      return add(piece);
+    }
+    if (!piece.is_box) return divide(piece);
+    if (0.5 * travelIn(piece) > piece.radius) {
+      Piece second = piece;
+      piece.end = second.start = 0.5 * (piece.start + piece.end);
+      add(piece);
+      return add(second);
+    }
+    if (!BoxTree::isTriangle(piece.node)) return offerBoxes(piece.node, piece.start, piece.end);
+    const int index = BoxTree::triangleOf(piece.node);
+    const RoundedTriangle triangle = surface_.triangle(index);
+    piece.is_box = false;
+    piece.corners = triangle.corners;
+    piece.radius = triangle.radius;
+    piece.ball = triangle.radius > 0.0 ? index : -1;
+    add(piece);
+  }
+
+ private:
+  Isometry3d poseOf(double s) const { return solid_.X_BG().inverse() * motion_.X_FP(s); }
+
+  Isometry3d poseAt(double s) const {
+    const double halves = 2.0 * s;
+    return halves == std::floor(halves) ? X_GP_[static_cast<std::size_t>(halves)] : poseOf(s);
+  }
+
+  double sufficientBound() const { return best_.depth + search_.resolution_; }
+  bool isDone(double bound) const { return bound <= sufficientBound(); }
+
+  /// @return whether the bound suffices.
+  bool tighten(double bound, Piece& piece) const {
+    piece.bound = std::min(piece.bound, bound);
+    return isDone(piece.bound);
+  }
+
+  /// Tightens a piece's bound and keeps the piece.
+  void add(Piece piece) {
+    if (!isDone(piece.bound)) piece.is_box ? measureBox(piece) : measure(piece);
+    piece.step = search_.step_;
+    search_.push(piece);
+  }
+
+  /// No part of a motion is more than twice as fast as the whole (see relativeMotionBounds()).
+  double travelIn(const Piece& piece) const { return std::min(1.0, 2.0 * (piece.end - piece.start)) * travel_; }
+
+  void measureBox(Piece& piece) {
+    // All points stay within half of the travel of their positions halfway.
+    const Vector3d center = poseAt(0.5 * (piece.start + piece.end)) * piece.corners[0];
+    const double reach = piece.radius + 0.5 * travelIn(piece);
+    piece.bound = std::min(piece.bound, reach - solid_.distanceBound(center));
+    if (isDone(piece.bound)) return;
+    const PointDepth depth = solid_.at(center, piece.nearest);
+    piece.nearest = depth.triangle;
+    piece.bound = std::min(piece.bound, depth.depth + reach);
+  }
+
+  void measure(Piece& piece) {
+    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    Hull hull;
+    for (int k = 0; k < 3; ++k) {
+      hull.corners[k] = X_start * piece.corners[k];
+      hull.corners[k + 3] = X_end * piece.corners[k];
+      hull.center += (hull.corners[k] + hull.corners[k + 3]) / 6.0;
+    }
+    for (const Vector3d& corner : hull.corners) hull.size = std::max(hull.size, (corner - hull.center).norm());
+    const double length = piece.end - piece.start;
+    const double beyond = motion_.acceleration * length * length / 8.0 + piece.radius;
+    Bounds bounds(hull);
+    for (const DepthPlane& plane : piece.planes) {
+      if (!bounds.addPlane(plane)) continue;
+      if (tighten(bounds.value() + beyond, piece)) return;
+    }
+    const PointDepth center = solid_.at(hull.center, piece.nearest);
+    piece.nearest = center.triangle;
+    if (tighten(center.depth + hull.size + beyond, piece)) return;
+    addSide(center, center, bounds);
+    constexpr int kRounds = 5;
+    for (int round = 0; round < kRounds && !tighten(bounds.value() + beyond, piece); ++round) {
+      // Where the bound is highest, another side may be nearer.
+      const double before = bounds.value();
+      const PointDepth there = offerPlace(piece, bounds, X_start, X_end);
+      if (isDone(piece.bound)) break;
+      addSide(there, center, bounds);
+      if (!(bounds.value() < before - 0.1 * search_.resolution_)) break;
+    }
+    if (isWholeBall(piece) && !tighten(bounds.value() + beyond, piece)) offerRound(piece, X_start);
+    bounds.copyPlanes(piece.planes);
+  }
+
+  /// Adds what the surface nearest to a point tells.
+  void addSide(const PointDepth& side, const PointDepth& center, Bounds& bounds) const {
+    constexpr double kParallel = 1.0 - 1e-9;
+    const Hull& hull = bounds.hull();
+    const auto addPlane = [&](const Vector3d& normal, int triangle) {
+      return bounds.addPlane(solid_.planeAlong(normal, triangle, hull.center, hull.size, center));
+    };
+    if (side.triangle < 0) {
+      addPlane(side.out, -1);
+      return;
+    }
+    const Vector3d normal = solid_.normalOf(side.triangle);
+    if (!addPlane(normal, side.triangle)) {
+      HullValues distances;
+      for (int k = 0; k < 6; ++k) distances[k] = solid_.distanceTo(side.triangle, hull.corners[k]);
+      bounds.add(distances);
+    }
+    if (!(normal.dot(side.out) > kParallel)) addPlane(side.out, -1);
+  }
+
+  /// Measures the point at which the bound is attained.
+  PointDepth offerPlace(const Piece& piece, const Bounds& bounds, const Isometry3d& X_start, const Isometry3d& X_end) {
+    const HullValues& shares = bounds.place();
+    const bool at_end = shares[3] + shares[4] + shares[5] >= 0.5;
+    Vector3d p_P = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k) p_P += (shares[k] + shares[k + 3]) * piece.corners[k];
+    const Vector3d p_G = (at_end ? X_end : X_start) * p_P;
+    const PointDepth depth = solid_.at(p_G, piece.nearest);
+    offer(depth, p_P, p_G, at_end ? piece.end : piece.start);
+    return depth;
+  }
+
+  /// Measures the point of a ball that is deepest in a solid that does not contain its centre, at the piece's start.
+  void offerRound(const Piece& piece, const Isometry3d& X_start) {
+    const Vector3d center = X_start * piece.corners[0];
+    const Vector3d p_G = center - piece.radius * solid_.at(center, piece.nearest).out;
+    offer(solid_.at(p_G, piece.nearest), X_start.inverse() * p_G, p_G, piece.start);
+  }
+
+  void offer(const PointDepth& depth, const Vector3d& p_P, const Vector3d& p_G, double s) {
+    if (!(depth.depth > best_.depth)) return;
+    best_ = {depth.depth, s, p_P, p_G, depth.out};
+    improved_ = true;
+  }
+
+  /// Halves a piece in time or along its longest edge, whichever extends farther.
+  void divide(const Piece& piece) {
+    const Isometry3d X_start = poseAt(piece.start), X_end = poseAt(piece.end);
+    const double length = piece.end - piece.start;
+    double displacement = motion_.acceleration * length * length / 8.0, longest = -1.0;
+    int edge = 0;
+    for (int k = 0; k < 3; ++k) {
+      displacement = std::max(displacement, (X_end * piece.corners[k] - X_start * piece.corners[k]).norm());
+      const double side = (piece.corners[(k + 1) % 3] - piece.corners[k]).norm();
+      if (side > longest) edge = k;
+      longest = std::max(longest, side);
+    }
+    if (isWholeBall(piece) && displacement <= piece.radius) return divideBall(piece);
+    // A resting point cannot be divided further.
+    const bool is_short = length < 1e-9;
+    if (longest == 0.0 && (displacement == 0.0 || is_short)) {
+      search_.highest_ = std::max(search_.highest_, piece.bound);
+      return;
+    }
+    Piece first = piece, second = piece;
+    if (displacement > longest && !is_short) {
+      first.end = second.start = 0.5 * (piece.start + piece.end);
+    } else {
+      const int next = (edge + 1) % 3;
+      first.corners[next] = second.corners[edge] = 0.5 * (piece.corners[edge] + piece.corners[next]);
+      if (piece.ball >= 0) {
+        const Vector3d onto = ontoBall(piece.ball, first.corners[next]);
+        first.corners[next] = second.corners[edge] = onto;
+        for (Piece* half : {&first, &second}) half->radius = capHeight(*half);
+      }
+    }
+    add(first);
+    add(second);
+  }
+
+  RoundedTriangle ballOf(int index) const { return surface_.triangle(index); }
+
+  /// Not a part of its surface, whose corners lie on it.
+  bool isWholeBall(const Piece& piece) const {
+    return piece.ball >= 0 && piece.corners[0] == ballOf(piece.ball).corners[0];
+  }
+
+  /// The point of a ball's surface in the direction of a point.
+  Vector3d ontoBall(int ball, const Vector3d& p) const {
+    const RoundedTriangle of = ballOf(ball);
+    return of.corners[0] + of.radius * (p - of.corners[0]).normalized();
+  }
+
+  /// Upper bound of the distance from a triangle with corners on a ball to the part of the surface over it.
+  double capHeight(const Piece& piece) const {
+    const RoundedTriangle& ball = ballOf(piece.ball);
+    const Vector3d normal = areaNormal(piece.corners).normalized();
+    const double to_plane = std::abs(normal.dot(piece.corners[0] - ball.corners[0]));
+    return ball.radius - std::min(to_plane, ball.radius) + 1e-12 * ball.radius;
+  }
+
+  /// Into the faces of an octahedron.
+  void divideBall(const Piece& piece) {
+    const RoundedTriangle& ball = ballOf(piece.ball);
+    for (int octant = 0; octant < 8; ++octant) {
+      Piece part = piece;
+      for (int axis = 0; axis < 3; ++axis) {
+        part.corners[axis] = ball.corners[0];
+        part.corners[axis][axis] += (octant >> axis & 1) ? ball.radius : -ball.radius;
+      }
+      part.radius = capHeight(part);
+      add(part);
+    }
+  }
+
+  DepthSearch& search_;
+  const BoxTree& surface_;
+  const DepthSolid& solid_;
+  const TwoBodyMotion& motion_;
+  const double travel_;
+  DeepestPoint& best_;
+  bool improved_ = false;
+  const std::array<Isometry3d, 3> X_GP_;  // at the start, halfway and at the end
+};
+
+void DepthSearch::restart() {
+  pieces_.clear();
+  free_.clear();
+  left_.clear();
+  displaced_ = 0.0;
+  is_complete_ = false;
+}
+
+void DepthSearch::begin(double displacement) {
+  constexpr double kFar = 0.25;  // of the surface's size: other parts of it are deepest then
+  displaced_ += displacement;
+  if (!is_complete_ || !(displaced_ < kFar * surface_->ball().radius)) restart();
+  highest_ = 0.0;
+}
+
+DeepestPoint DepthSearch::pointAt(const Vector3d& p_P, const TwoBodyMotion& motion, double s) const {
+  const Vector3d p_G = solid_->X_BG().inverse() * (motion.X_FP(s) * p_P);
+  const PointDepth depth = solid_->at(p_G);
+  return {depth.depth, s, p_P, p_G, depth.out};
+}
+
+void DepthSearch::push(const Piece& piece) {
+  int index = static_cast<int>(pieces_.size());
+  if (free_.empty()) {
+    pieces_.push_back(piece);
+  } else {
+    index = free_.back();
+    free_.pop_back();
+    pieces_[static_cast<std::size_t>(index)] = piece;
+  }
+  left_.push_back({piece.bound - displaced_, index});
+  std::push_heap(left_.begin(), left_.end());
+}
+
+DepthSearch::Piece DepthSearch::pop() {
+  std::pop_heap(left_.begin(), left_.end());
+  const Kept kept = left_.back();
+  left_.pop_back();
+  free_.push_back(kept.piece);
+  Piece piece = pieces_[static_cast<std::size_t>(kept.piece)];
+  piece.bound = kept.key + displaced_;
+  return piece;
+}
+
+bool DepthSearch::run(const TwoBodyMotion& motion, double travel, DeepestPoint& best, int& pieces) {
+  displaced_ += travel;
+  const auto bound = [&] { return left_.empty() ? 0.0 : left_.front().key + displaced_; };
+  const bool is_new = !is_complete_ && left_.empty();
+  is_complete_ = false;  // until the end: a search that is cancelled loses a piece
+  ++step_;
+  bool improved = false;
+  if (is_new || bound() > best.depth + resolution_) {
+    Step step(*this, motion, travel, best);
+    if (is_new) step.offerBoxes(surface_->root().node, 0.0, 1.0);
+    CancelTicks<64> cancel;
+    for (; bound() > best.depth + resolution_ && pieces > 0; --pieces) {
+      cancel.check();
+      step.examine(pop());
+    }
+    improved = step.isImproved();
+  }
+  highest_ = std::max(highest_, bound());
+  is_complete_ = true;
+  return improved;
+}
+
+}  // namespace sdf_ccd
