@@ -7,13 +7,13 @@ file(GLOB SDF_CCD_MESSAGES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DE
 file(GLOB SDF_CCD_SERVICES RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/srv CONFIGURE_DEPENDS srv/*.srv)
 add_message_files(DIRECTORY msg FILES ${SDF_CCD_MESSAGES})
 add_service_files(DIRECTORY srv FILES ${SDF_CCD_SERVICES})
-generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs trajectory_msgs)
+generate_messages(DEPENDENCIES geometry_msgs sensor_msgs shape_msgs std_msgs trajectory_msgs)
 generate_dynamic_reconfigure_options(cfg/CollisionMonitor.cfg cfg/VelocityScale.cfg)
 
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES sdf_ccd_core sdf_ccd_robot sdf_ccd_dynamics
-  CATKIN_DEPENDS dynamic_reconfigure geometry_msgs message_runtime shape_msgs std_msgs std_srvs trajectory_msgs
+  CATKIN_DEPENDS dynamic_reconfigure geometry_msgs message_runtime sensor_msgs shape_msgs std_msgs std_srvs trajectory_msgs
   DEPENDS EIGEN3
   CFG_EXTRAS sdf_ccd_targets.cmake)
 

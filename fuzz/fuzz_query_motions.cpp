@@ -11,18 +11,13 @@ QueryMotions::Request requestOf(Numbers& numbers) {
   QueryMotions::Request request;
   const std::size_t what = numbers.byte();
   request.all = (what & 1) != 0;
-  request.interpolation = static_cast<std::uint8_t>(numbers.below(4));
+  const auto interpolation = static_cast<std::uint8_t>(numbers.below(4));
   request.list_pairs = (what & 4) != 0;
   if (what & 2) request.margin = numbers.real();
-  const QueryMotion::Request others = motionRequestOf(numbers);
-  request.other_joints = others.other_joints;
-  request.other_positions = others.other_positions;
-  request.allow_beyond_limits = others.allow_beyond_limits;
+  request.allow_beyond_limits = motionRequestOf(numbers).allow_beyond_limits;
   for (std::size_t i = numbers.below(4); i > 0; --i) {
-    const QueryMotion::Request one = motionRequestOf(numbers);
-    request.motions.emplace_back();
-    request.motions.back().joint_trajectory = one.joint_trajectory;
-    request.motions.back().multi_dof_joint_trajectory = one.multi_dof_joint_trajectory;
+    request.motions.push_back(motionRequestOf(numbers).motion);
+    request.motions.back().interpolation = interpolation;
   }
   return request;
 }

@@ -18,16 +18,18 @@ inline QueryMotion::Request motionRequestOf(Numbers& numbers) {
                : ros::Duration(static_cast<std::int32_t>(numbers.byte() * 0x01010101U), numbers.byte() * 3900000);
   };
   if (what & 2) {
-    for (std::size_t i = numbers.below(4); i > 0; --i) request.joint_trajectory.joint_names.push_back(nameOf(numbers));
-    request.joint_trajectory.points.resize(numbers.below(5));
-    for (auto& point : request.joint_trajectory.points) {
+    for (std::size_t i = numbers.below(4); i > 0; --i)
+      request.motion.joint_trajectory.joint_names.push_back(nameOf(numbers));
+    request.motion.joint_trajectory.points.resize(numbers.below(5));
+    for (auto& point : request.motion.joint_trajectory.points) {
       point.time_from_start = nextTime();
-      const std::size_t count = numbers.below(16) == 0 ? numbers.below(4) : request.joint_trajectory.joint_names.size();
+      const std::size_t count =
+          numbers.below(16) == 0 ? numbers.below(4) : request.motion.joint_trajectory.joint_names.size();
       for (std::size_t i = 0; i < count; ++i) point.positions.push_back(numbers.real());
     }
   }
   if (what & 4) {
-    auto& poses = request.multi_dof_joint_trajectory;
+    auto& poses = request.motion.multi_dof_joint_trajectory;
     poses.header.frame_id = nameOf(numbers);
     for (std::size_t i = numbers.below(3); i > 0; --i) poses.joint_names.push_back(nameOf(numbers));
     poses.points.resize(numbers.below(5));
@@ -38,16 +40,17 @@ inline QueryMotion::Request motionRequestOf(Numbers& numbers) {
     }
   }
   for (std::size_t i = what & 8 ? numbers.below(3) : 0; i > 0; --i) {
-    request.other_joints.push_back(nameOf(numbers));
-    request.other_positions.push_back(numbers.real());
+    request.motion.other_joints.name.push_back(nameOf(numbers));
+    request.motion.other_joints.position.push_back(numbers.real());
   }
   if (what & 16) {
-    for (std::size_t i = numbers.below(3); i > 0; --i) request.links.push_back(nameOf(numbers));
-    request.poses.resize(numbers.below(5));
-    for (auto& poses : request.poses) {
-      poses.time_from_start = nextTime();
-      poses.poses.resize(numbers.below(16) == 0 ? numbers.below(4) : request.links.size());
-      for (auto& pose : poses.poses) takePose(numbers, pose.orientation, pose.position);
+    LinkTrajectory& links = request.motion.link_trajectory;
+    for (std::size_t i = numbers.below(3); i > 0; --i) links.link_names.push_back(nameOf(numbers));
+    links.points.resize(numbers.below(5));
+    for (auto& point : links.points) {
+      point.time_from_start = nextTime();
+      point.poses.resize(numbers.below(16) == 0 ? numbers.below(4) : links.link_names.size());
+      for (auto& pose : point.poses) takePose(numbers, pose.orientation, pose.position);
     }
   }
   return request;

@@ -177,11 +177,30 @@ struct Body : BodyPlace {
   const DistanceField& field() const&& = delete;  ///< the body would be destroyed before the field is used
 };
 
+/// Whether a part of a body is there.
+enum class PartState {
+  kNotNeeded,  ///< no pair needs it, or the body can have none
+  kReady,
+  kAwaited,   ///< it is made later, as Forces::kAwaited, or the body comes later
+  kUnwanted,  ///< as Forces::kUnwanted
+  kFailed,
+};
+
+/// What is known of a part.
+struct PartReport {
+  PartState state = PartState::kNotNeeded;
+  std::string text;  ///< of a field that is ready "cached", "built 1.2 s", "exact" or "shared"; else why it is not ready
+};
+
+/// The parts of a body: verdicts need its surface only; fields and shells find forces, and times and depths of contacts.
+struct PartReports {
+  PartReport surface, field, shell;
+};
+
 /// What was built for one body; a row of the plan's table.
-struct BodyReport {
+struct BodyReport : PartReports {
   std::string name;
   std::string geometry;         ///< "mesh (300 triangles, closed)", "box", …
-  std::string field;            ///< "cached", "built 1.2 s", "exact", "shared", "left out"
   std::size_t field_bytes = 0;  ///< data shared by several bodies, such as a mesh, is counted for the first one
   std::size_t cells = 0;        ///< stored cells
   double field_error = 0.0;     ///< [m]

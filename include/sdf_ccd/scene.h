@@ -20,19 +20,12 @@ struct PlannedPair {
   bool b_shell_a_field;
 };
 
-/// A field or shell that a plan leaves out.
-struct LeftOutPart {
-  std::string kind;  ///< "field", "shell"
-  std::string body;  ///< its name
-  std::string reason;
-};
-
 /// What a scene needs, decided before anything is built (design §4).
 struct ScenePlan {
   std::vector<PlannedPair> pairs;
   std::vector<BodyNeeds> needs;  ///< per body; without surfaces, which depend on the fields once these are built
   std::vector<PairDecision> left_out;
-  std::vector<LeftOutPart> parts_left_out;
+  std::vector<PartReports> parts;  ///< per body: kReady are those that are needed
 };
 
 /// What a plan depends on besides the scene.
@@ -65,7 +58,6 @@ struct Scene {
   BodyList bodies;
   std::vector<PlannedPair> pairs;
   std::vector<PairDecision> left_out;
-  std::vector<LeftOutPart> parts_left_out;
   std::vector<std::string> visual_only;  ///< as in SceneDescription: nothing is known of where they are solid
   std::vector<BodyReport> reports;
   std::vector<std::string> warnings;       ///< about its pairs, and those that several bodies share

@@ -108,7 +108,7 @@ struct PlannedMotion {
   std::vector<double> samples;  ///< times of the plan's points [s], from the first
 
   std::vector<AssumedJoint> assumed;
-  std::string notes;  ///< notes for the user about these, by the author of the plan; may be empty
+  std::vector<std::string> notes;  ///< about these, for the user
 };
 
 /// The bodies that a plan moves, or may hit.

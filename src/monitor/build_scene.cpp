@@ -98,6 +98,7 @@ Scene buildScene(const SceneDescription& description, const ScenePlan& plan, con
   scene.bodies = BodyList(std::move(bodies));
   warnOfUntestable(scene);
   if (progress && count > 0) progress(description.bodies.back().name, 1.0);
+  setParts(plan, scene);
   setTotals(scene);
   scene.build_seconds = secondsSince(start);
   return scene;

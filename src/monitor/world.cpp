@@ -125,7 +125,6 @@ std::vector<WorldEditor::Impl::Shared> WorldEditor::Impl::addBodies(const SceneD
     scene.reports.push_back(prepared[b] ? prepared[b]->report : BodyReport());
     scene.reports.back().name = body.name;
     if (prepared[b] && !counted.insert(prepared[b]).second) countAsShared(scene.reports.back());
-    if (!prepared[b]) scene.reports.back().field = body.failure.empty() ? "left out" : "failed";
   }
   snapshot.shared = std::max(0, snapshot.shared - snapshot.prepared);
   return found;
@@ -217,6 +216,7 @@ std::shared_ptr<const WorldSnapshot> WorldEditor::next(SceneDescription descript
   scene.resting = impl_->resting;
   const std::vector<std::shared_ptr<const Body>> bodies = impl_->addBodies(description, prepared, *snapshot, scene);
   if (const std::string warning = warnOfUntestable(scene); !warning.empty()) snapshot->warnings.push_back(warning);
+  setParts(plan, scene);
   setTotals(scene);
   scene.build_seconds = secondsSince(start);
   impl_->bodies.dropUnused(snapshot->version);

@@ -61,7 +61,8 @@ RobotScene::Impl::Impl(RobotModel model, const Srdf& srdf, const ResourceLoader&
   [[maybe_unused]] const Monitor none(std::make_shared<const Scene>(), monitor);
   links = describeRobot(robot, srdf, loader, {options.check_adjacent}, link_warnings);
   for (BodyDescription& body : links.bodies) body.forces = forces;
-  joints = jointsAt({}, {});
+  now.known_by = "setJoints()";
+  now.joints = jointsAt({}, {});
 }
 
 void RobotScene::Impl::build(const std::vector<WorldObject>& first, const Srdf& srdf,
@@ -79,30 +80,30 @@ void RobotScene::Impl::build(const std::vector<WorldObject>& first, const Srdf& 
   editor = std::make_unique<WorldEditor>(body_options);
   std::shared_ptr<const WorldSnapshot> version = editor->begin(std::move(description), plan, std::move(built));
   // Later versions leave out what building has left out.
-  const SceneDescription& now = *version->description;
-  for (std::size_t i = 0; i < bodies_of_links; ++i) links.bodies[i].failure = now.bodies[i].failure;
-  for (std::size_t i = 0; i < with.size(); ++i) with[i].body.failure = now.bodies[bodies_of_links + i].failure;
-  links.allowed.insert(links.allowed.end(), now.allowed.begin() + static_cast<std::ptrdiff_t>(allowed),
-                       now.allowed.end());
+  const SceneDescription& made = *version->description;
+  for (std::size_t i = 0; i < bodies_of_links; ++i) links.bodies[i].failure = made.bodies[i].failure;
+  for (std::size_t i = 0; i < with.size(); ++i) with[i].body.failure = made.bodies[bodies_of_links + i].failure;
+  links.allowed.insert(links.allowed.end(), made.allowed.begin() + static_cast<std::ptrdiff_t>(allowed),
+                       made.allowed.end());
   adopt(std::move(with), std::move(version));
 }
 
 /// The named joints, and those that follow them.
 CurrentJoints RobotScene::Impl::jointsAt(const JointPositions& positions, const JointPoses& poses) const {
   const std::vector<Isometry3d> X_RL = robot.forwardKinematics(positions, poses);
-  CurrentJoints now;
+  CurrentJoints current;
   for (int link = 1; link < static_cast<int>(X_RL.size()); ++link) {
     const urdf::Joint& joint = robot.jointAbove(link);
     const bool is_named =
         positions.count(joint.name) > 0 || positions.count(robot.leader(joint).name) > 0 || poses.count(joint.name) > 0;
     if (is_named) {
       const auto parent = static_cast<std::size_t>(robot.parent(link));
-      now.X_PL[joint.name] = X_RL[parent].inverse() * X_RL[static_cast<std::size_t>(link)];
+      current.X_PL[joint.name] = X_RL[parent].inverse() * X_RL[static_cast<std::size_t>(link)];
     } else {
-      now.missing[joint.name] = "RobotScene::setJoints() does not name it";
+      current.missing[joint.name] = "RobotScene::setJoints() does not name it";
     }
   }
-  return now;
+  return current;
 }
 
 RobotScene::Impl::Object RobotScene::Impl::objectOf(const WorldObject& object,
@@ -157,18 +158,18 @@ void RobotScene::Impl::adopt(std::vector<Object> next, std::shared_ptr<const Wor
   std::vector<std::string> lines = link_warnings;
   for (const Object& object : next)
     for (const std::string& warning : object.warnings) addOnce(warning, lines);
-  const Scene& now = *version->scene;
-  for (const Body& body : now.bodies)
+  const Scene& scene = *version->scene;
+  for (const Body& body : scene.bodies)
     if (!body.failure.empty()) addOnce("not checked: " + failureByName(body), lines);
-  for (const BodyReport& report : now.reports)
+  for (const BodyReport& report : scene.reports)
     for (const std::string& warning : report.warnings) addOnce(report.name + ": " + warning, lines);
-  for (const std::string& warning : now.warnings) addOnce(warning, lines);
+  for (const std::string& warning : scene.warnings) addOnce(warning, lines);
   for (const std::string& warning : version->warnings) addOnce(warning, lines);
-  addOnce(whyNoPairs(now), lines);
-  PlannedBodies carried = bodiesOf(now, robot);
+  addOnce(whyNoPairs(scene), lines);
+  PlannedBodies carried = bodiesOf(scene, robot);
   idle.clear();
   warnings = std::move(lines);
-  bodies = std::move(carried);
+  now.bodies = std::move(carried);
   objects = std::move(next);
   world = std::move(version);
 }
@@ -214,7 +215,7 @@ std::vector<std::pair<std::string, std::string>> RobotScene::pairs() const {
 }
 
 void RobotScene::setJoints(const JointPositions& positions, const JointPoses& poses) {
-  impl_->joints = impl_->jointsAt(positions, poses);
+  impl_->now.joints = impl_->jointsAt(positions, poses);
 }
 
 void RobotScene::addObject(const WorldObject& object, const std::vector<std::string>& may_touch) {

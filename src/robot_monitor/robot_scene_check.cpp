@@ -20,17 +20,6 @@ void requireStates(const RobotTrajectory& trajectory) {
                                 "; two or more are needed");
 }
 
-std::vector<std::string> notesOnAssumed(const PlannedJoints& plan) {
-  std::vector<std::string> notes, names;
-  for (const AssumedJoint& joint : plan.assumed) names.push_back(joint.name);
-  constexpr std::size_t kMost = 5;
-  if (!names.empty())
-    notes.push_back("not named, hence assumed to stay where setJoints() has them: " + counted(names.size(), "joint") +
-                    ", " + firstOf(names, kMost));
-  for (const std::string& beyond : plan.beyond_limits) notes.push_back("where setJoints() has it, " + beyond);
-  return notes;
-}
-
 ContactPoint atTime(ContactPoint point, double start) {
   point.enter += start;
   point.exit += start;
@@ -64,14 +53,12 @@ bool isBefore(const MotionPair& a, const MotionPair& b) {
 
 }  // namespace
 
-PlannedMotion RobotScene::Impl::planned(const RobotTrajectory& trajectory, bool allow_beyond_limits, double tolerance,
-                                        std::vector<std::string>* notes) const {
+PlannedMotion RobotScene::Impl::planned(const RobotTrajectory& trajectory, bool allow_beyond_limits,
+                                        double tolerance) const {
   requireStates(trajectory);
-  const PlannedJoints plan = completePlan(robot, trajectory, joints, {allow_beyond_limits});
-  if (notes) *notes = notesOnAssumed(plan);
   MotionSampling wanted;
   wanted.tolerance = tolerance;
-  return planAlong(robot, plan, bodies, wanted);
+  return planFromNow(robot, {trajectory, true, {}}, now, {allow_beyond_limits}, wanted);
 }
 
 const MotionPair* MotionResult::find(const std::string& body_a, const std::string& body_b) const {
@@ -83,8 +70,9 @@ const MotionPair* MotionResult::find(const std::string& body_a, const std::strin
 
 MotionResult RobotScene::check(const RobotTrajectory& trajectory, const MotionCheckOptions& options) const {
   MotionResult result;
-  const PlannedMotion motion = impl_->planned(trajectory, options.allow_beyond_limits, impl_->sampling, &result.notes);
+  const PlannedMotion motion = impl_->planned(trajectory, options.allow_beyond_limits, impl_->sampling);
   result.assumed = motion.assumed;
+  result.notes = motion.notes;
   CycleRequest request;
   request.margin = options.margin;
   request.contacts = options.contacts;

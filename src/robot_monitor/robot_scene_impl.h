@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/plan_from_now.h"
 #include "scene/pair_rules.h"
 #include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
@@ -37,8 +38,7 @@ struct RobotScene::Impl {
   const std::string& nameOf(int body) const { return scene().bodies[static_cast<std::size_t>(body)].name; }
 
   /// The motion of all bodies. @throws std::invalid_argument as RobotScene::check().
-  PlannedMotion planned(const RobotTrajectory& trajectory, bool allow_beyond_limits, double tolerance,
-                        std::vector<std::string>* notes = nullptr) const;
+  PlannedMotion planned(const RobotTrajectory& trajectory, bool allow_beyond_limits, double tolerance) const;
 
   template <class Use>
   auto measured(const RobotState& state, const Use& use) const;
@@ -54,11 +54,10 @@ struct RobotScene::Impl {
   SceneDescription links;                  // the robot's bodies, and their pairs that are left out
   std::vector<std::string> link_warnings;  // about the robot alone
   std::vector<Object> objects;
-  CurrentJoints joints;  // where setJoints() has them
+  PresentState now;  // joints: where setJoints() has them; bodies: of this version
 
   std::unique_ptr<WorldEditor> editor;
   std::shared_ptr<const WorldSnapshot> world;
-  PlannedBodies bodies;                   // of this version
   std::vector<std::string> warnings;      // about it
   std::shared_ptr<MonitorMemory> memory;  // of all checks
 

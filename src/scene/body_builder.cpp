@@ -89,7 +89,10 @@ class BodyBuilder {
       if (!left_out.empty()) report_.solid += (report_.solid.empty() ? "" : "; ") + left_out;
     }
     const double seconds = secondsSince(start);
-    report_.field = exact ? "exact" : built ? "built " + durationText(seconds) : cached ? "cached" : "shared";
+    report_.field = {PartState::kReady, exact    ? "exact"
+                                        : built  ? "built " + durationText(seconds)
+                                        : cached ? "cached"
+                                                 : "shared"};
     return parts;
   }
 
@@ -187,6 +190,7 @@ void build(const BodyNeeds& needs, BodyBuilder&& builder, const Progress& progre
   if (needs.shell) body.tree = std::make_shared<const SphereTree>(buildSphereTree(shell));
   body.shell = std::make_shared<const PointShell>(std::move(shell));
   if (!needs.shell) return;
+  report.shell.state = PartState::kReady;
   report.shell_points = body.shell->size();
   report.shell_bytes = bytesOf(*body.shell, *body.tree);
   report.gap = contactGap(*body.shell, *body.shell);
@@ -213,7 +217,6 @@ BuiltBody failedBody(const BodyDescription& description, const std::string& fail
   static_cast<BodyPlace&>(failed.body) = description;
   failed.body.failure = failure;
   failed.report.name = description.name;
-  failed.report.field = "failed";
   return failed;
 }
 
@@ -223,7 +226,6 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
   Body& body = built.body;
   static_cast<BodyPlace&>(body) = description;
   built.report.name = description.name;
-  built.report.field = "left out";
   if (body.failure.empty() && needs.any()) {
     try {
       requirePose(description.X_frame_B, "the body's pose in its frame");
@@ -239,7 +241,6 @@ BuiltBody buildUnshared(const BodyDescription& description, const BodyNeeds& nee
       body.tree = Body().tree;
     }
   }
-  if (!body.failure.empty()) built.report.field = "failed";
   return built;
 }
 

@@ -120,7 +120,7 @@ BuiltBody buildBody(const BodyDescription& description, const BodyNeeds& needs, 
 }
 
 void countAsShared(BodyReport& report) {
-  if (report.field != "exact" && report.field != "left out") report.field = "shared";
+  if (report.field.state == PartState::kReady && report.field.text != "exact") report.field.text = "shared";
   report.field_bytes = report.shell_bytes = 0;
 }
 

@@ -25,7 +25,7 @@ TEST(BuildScene, PrimitivesHaveExactFields) {
     for (const Vector3d& p : body.shell->points()) ASSERT_LE((p - body.ball.center).norm(), body.ball.radius + 1e-12);
   }
   EXPECT_EQ(scene->reports[0].geometry, "sphere");
-  EXPECT_EQ(scene->reports[0].field, "exact");
+  EXPECT_EQ(scene->reports[0].field.text, "exact");
 }
 
 TEST(BuildScene, BuildsOnlyWhatThePlanNeeds) {
@@ -33,7 +33,9 @@ TEST(BuildScene, BuildsOnlyWhatThePlanNeeds) {
   EXPECT_EQ(scene->bodies[0].shell->size(), 0u);
   EXPECT_EQ(scene->bodies[0].parts.size(), 1u);
   EXPECT_TRUE(scene->bodies[1].parts.empty());
-  EXPECT_EQ(scene->reports[1].field, "left out");
+  EXPECT_EQ(scene->reports[1].field.state, PartState::kNotNeeded);
+  EXPECT_EQ(scene->reports[0].field.state, PartState::kReady);
+  EXPECT_EQ(scene->reports[0].shell.state, PartState::kNotNeeded);
 }
 
 TEST(BuildScene, EqualMeshesAreBuiltOnce) {
@@ -44,7 +46,7 @@ TEST(BuildScene, EqualMeshesAreBuiltOnce) {
   const auto* left = scene->bodies[0].parts[0].field.grid();
   EXPECT_EQ(left, scene->bodies[1].parts[0].field.grid());
   EXPECT_NE(left, scene->bodies[2].parts[0].field.grid());
-  EXPECT_EQ(scene->reports[1].field, "shared");
+  EXPECT_EQ(scene->reports[1].field.text, "shared");
   EXPECT_EQ(scene->reports[1].field_bytes, 0u);
   EXPECT_GT(scene->reports[0].field_bytes, 0u);
 }
@@ -203,8 +205,8 @@ TEST(BuildScene, SecondStartTakesTheCache) {
   const std::vector<BodyDescription> bodies = {body("a", meshShape(icosphere(0.1, 2))),
                                                body("b", Primitive(Sphere{0.1}))};
   const auto first = build(bodies, options), second = build(bodies, options);
-  EXPECT_EQ(first->reports[0].field.substr(0, 5), "built");
-  EXPECT_EQ(second->reports[0].field, "cached");
+  EXPECT_EQ(first->reports[0].field.text.substr(0, 5), "built");
+  EXPECT_EQ(second->reports[0].field.text, "cached");
   EXPECT_TRUE(second->reports[0].warnings.empty());
   EXPECT_FALSE(first->reports[0].is_cache_incomplete || second->reports[0].is_cache_incomplete);
   std::filesystem::remove_all(directory);

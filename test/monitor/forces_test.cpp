@@ -53,9 +53,11 @@ TEST(Forces, PlanLeavesFieldsAndShellsOut) {
     EXPECT_FALSE(needs.field || needs.shell);
     EXPECT_TRUE(needs.triangles);
   }
-  std::size_t named = 0;
-  for (const LeftOutPart& part : plan.parts_left_out) named += part.reason == "its field and shell are being built";
-  EXPECT_EQ(named, 2U);
+  for (const PartReport* part : {&plan.parts[0].field, &plan.parts[0].shell}) {
+    EXPECT_EQ(part->state, PartState::kAwaited);
+    EXPECT_EQ(part->text, "its field and shell are being built");
+  }
+  for (const PartReports& parts : plan.parts) EXPECT_EQ(parts.surface.state, PartState::kReady);
 }
 
 TEST(Forces, ContactsWithoutThemSaySo) {

@@ -35,7 +35,7 @@ void expectOthersAreBuilt(const TriangleMesh& hostile) {
   EXPECT_TRUE(scene.bodies[3].failure.empty()) << scene.bodies[3].failure;
   for (const int late : {1, 2}) {
     EXPECT_NE(scene.bodies[late].failure.find("max_preparation_time"), std::string::npos) << scene.bodies[late].failure;
-    EXPECT_EQ(scene.reports[late].field, "failed");
+    EXPECT_EQ(scene.reports[late].field.state, PartState::kFailed);
     EXPECT_EQ(scene.reports[late].name, scene.bodies[late].name);
   }
 }

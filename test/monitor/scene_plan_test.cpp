@@ -24,8 +24,6 @@ std::vector<bool> which(const ScenePlan& plan, bool BodyNeeds::*need) {
 std::string reasonOf(const ScenePlan& plan, const std::string& what) {
   for (const PairDecision& pair : plan.left_out)
     if ("pair " + pairName(pair.body_a, pair.body_b) == what) return pair.text;
-  for (const LeftOutPart& part : plan.parts_left_out)
-    if (part.kind + " of " + part.body == what) return part.reason;
   return "";
 }
 
@@ -112,21 +110,24 @@ TEST(ScenePlan, HalfSpacesAndVoxelsAreOnlyFields) {
   EXPECT_EQ(which(plan, &BodyNeeds::shell), (std::vector<bool>{false, true, false}));
   EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{true, false, true}));
   EXPECT_EQ(which(plan, &BodyNeeds::triangles), (std::vector<bool>{true, true, true}));
-  EXPECT_FALSE(reasonOf(plan, "shell of map").empty());
+  EXPECT_FALSE(plan.parts[0].shell.text.empty());
 }
 
 TEST(ScenePlan, ABodyThatOnlyMeetsHalfSpacesIsOnlyAShell) {
   const ScenePlan plan = planScene({{body("arm", kBall), body("ground", ground())}, {}});
   EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{false, true}));
-  EXPECT_EQ(reasonOf(plan, "field of arm"), "used only as a shell");
+  EXPECT_EQ(plan.parts[0].field.text, "used only as a shell");
 }
 
 TEST(ScenePlan, UnusedBodiesAreNotBuilt) {
   const ScenePlan plan = planScene({{body("a", kBall), body("b", kBall)}, {{"a", "b", "never"}}});
   EXPECT_TRUE(plan.pairs.empty());
   EXPECT_EQ(which(plan, &BodyNeeds::field), (std::vector<bool>{false, false}));
-  EXPECT_EQ(reasonOf(plan, "field of a"), "no pair needs it");
-  EXPECT_EQ(reasonOf(plan, "shell of b"), "no pair needs it");
+  for (const PartReports& parts : plan.parts)
+    for (const PartReport* part : {&parts.surface, &parts.field, &parts.shell}) {
+      EXPECT_EQ(part->state, PartState::kNotNeeded);
+      EXPECT_EQ(part->text, "no pair needs it");
+    }
 }
 
 TEST(ScenePlan, PairsOfFailedBodiesStay) {
@@ -192,9 +193,9 @@ TEST(ScenePlan, LargePrimitiveIsOnlyAFieldToSmallerBodies) {
   EXPECT_TRUE(planScene(scene, {0.1}).pairs[0].a_shell_b_field);
   const ScenePlan two = planScene({{scene.bodies[0], scene.bodies[1]}, {}}, {0.005});
   EXPECT_FALSE(two.needs[0].shell);
-  ASSERT_EQ(two.parts_left_out.size(), 2U);
-  EXPECT_EQ(two.parts_left_out[0].kind, "shell");
-  EXPECT_EQ(two.parts_left_out[0].body, "table");
+  EXPECT_EQ(two.parts[0].shell.state, PartState::kNotNeeded);
+  EXPECT_EQ(two.parts[0].field.state, PartState::kReady);
+  EXPECT_EQ(two.parts[1].shell.state, PartState::kReady);
 }
 
 TEST(ScenePlan, TableNamesLinksThatAreOnlySeen) {

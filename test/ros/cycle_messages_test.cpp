@@ -122,7 +122,10 @@ TEST_F(CycleMessagesTest, ThePlanSaysWhatIsCheckedAndWhyTheRestIsNot) {
   EXPECT_EQ(plan.bodies[1].name + " in " + plan.bodies[1].frame, "finger in hand");
   EXPECT_EQ(plan.bodies[2].failure, scene->bodies[2].failure);
   EXPECT_TRUE(plan.bodies[3].is_world && !plan.bodies[0].is_world);
-  EXPECT_NE(plan.bodies[3].no_shell, "") << "a plane cannot be covered with points";
+  EXPECT_EQ(plan.bodies[0].surface.state, PlanPart::READY);
+  EXPECT_EQ(plan.bodies[2].surface.state, PlanPart::FAILED);
+  EXPECT_EQ(plan.bodies[3].shell.state, PlanPart::NOT_NEEDED);
+  EXPECT_NE(plan.bodies[3].shell.text, "") << "a plane cannot be covered with points";
   std::vector<std::string> checked;
   for (const PlanPair& pair : plan.checked)
     checked.push_back(plan.bodies[pair.body_a].name + " - " + plan.bodies[pair.body_b].name);
@@ -153,7 +156,7 @@ TEST_F(CycleMessagesTest, AForceThatIsNotKnownIsNoNumber) {
   EXPECT_TRUE(said.pairs[0].incomplete);
   EXPECT_NE(said.pairs[0].reason.find("incomplete"), std::string::npos);
   EXPECT_TRUE(std::isnan(said.pairs[0].wrench_on_a.force.x));
-  EXPECT_GE(said.pairs[0].depth + said.pairs[0].deepest.depth_error, 0.1);
+  EXPECT_GE(said.pairs[0].deepest.depth + said.pairs[0].deepest.depth_error, 0.1);
   EXPECT_TRUE(std::isnan(toWrenchStamped(*loop_, 0).wrench.force.x));
   const MonitorState state = toMonitorState(*loop_, ros::Time(10.2));
   EXPECT_EQ(state.cycle.incomplete, 1u);

@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 from monitor_case import Recorder, MovingBalls, pair_of, touches, trajectory, wait_for_service
 from own_master import PATIENCE, MasterCase
-from sdf_ccd.msg import ContactArray, Plan, Verdict
+from sdf_ccd.msg import ContactArray, Plan, PlanPart, Verdict
 from sdf_ccd.srv import QueryMotion
 
 RADIUS, DEPTH, STIFFNESS = 0.1, 0.005, 1e6    # of the ball, of it in the plate [m]; [N/m^3]
@@ -76,7 +76,7 @@ class ForcesTest(MasterCase):
         plans = self.begin('always', 'always')
         pair = self.contact(contacts, known=False)
         self.assertEqual((pair.reason, pair.incomplete), (AWAITED, False))
-        self.assertGreaterEqual(pair.depth + pair.deepest.depth_error, DEPTH - 1e-4)
+        self.assertGreaterEqual(pair.deepest.depth + pair.deepest.depth_error, DEPTH - 1e-4)
         self.assertEqual(len(pair.intervals), 1)
         self.assert_force(self.contact(contacts, known=True))
         for recorder, value in ((wrenches, lambda m: m.wrench.force.x), (torques, lambda m: m.effort[0])):
@@ -87,9 +87,11 @@ class ForcesTest(MasterCase):
         self.assertTrue(checked)
         self.assertFalse([m.reason for m in checked[1:] if m.verdict != Verdict.CONTACT][:3])
         first = plans.messages[0]
-        self.assertIn('its field and shell are being built', [body.no_field for body in first.bodies])
-        built = plans.find(lambda m: 'its field and shell are being built' not in str(m.bodies))
+        self.assertIn((PlanPart.AWAITED, 'its field and shell are being built'),
+                      [(body.field.state, body.field.text) for body in first.bodies])
+        built = plans.find(lambda m: all(body.field.state != PlanPart.AWAITED for body in m.bodies))
         ball, = [body for body in built.bodies if body.name == 'ball']
+        self.assertEqual(ball.shell.state, PlanPart.READY)
         self.assertGreater(ball.shell_points, 1000)
 
     def test_forces_on_demand(self):
@@ -107,7 +109,9 @@ class ForcesTest(MasterCase):
         plans = self.begin('none', 'never')
         reason = 'its field and shell are not wanted (parameter wrenches)'
         self.assertEqual(self.contact(contacts, known=False).reason, 'no force: ball: ' + reason)
-        self.assertIn(reason, [body.no_shell for body in plans.find(lambda m: True).bodies])
+        plan = plans.find(lambda m: True)
+        self.assertIn((PlanPart.NOT_WANTED, reason), [(body.shell.state, body.shell.text) for body in plan.bodies])
+        self.assertIn(PlanPart.READY, [body.surface.state for body in plan.bodies])
         query = wait_for_service('/none/query_motion', QueryMotion)
         answer = query(trajectory('slide', [-0.5, 0.0]))
         self.assertTrue(answer.success and answer.verdict == Verdict.CONTACT, answer)

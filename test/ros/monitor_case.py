@@ -10,7 +10,7 @@ from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from sdf_ccd.msg import ContactArray, Plan, SceneChange, Verdict
+from sdf_ccd.msg import ContactArray, Plan, RobotMotion, SceneChange, Verdict
 from sdf_ccd.srv import QueryMotion, QueryMotionRequest
 
 RADIUS, PLATE = 0.02, 0.4995         # of the balls of sliders.urdf, and x of the plate's face [m]
@@ -132,7 +132,8 @@ def trajectory(joint, positions):
     """A request to query_motion, with one second between positions."""
     points = [JointTrajectoryPoint(positions=[p], time_from_start=rospy.Duration(float(i)))
               for i, p in enumerate(positions)]
-    return QueryMotionRequest(joint_trajectory=JointTrajectory(joint_names=[joint], points=points))
+    motion = RobotMotion(joint_trajectory=JointTrajectory(joint_names=[joint], points=points))
+    return QueryMotionRequest(motion=motion)
 
 
 class MonitorCase(unittest.TestCase):

@@ -60,8 +60,8 @@ class MonitorTest(MonitorCase):
         self.assertEqual(pair.first_contact, pair.intervals[0].start)
         self.assertAlmostEqual((pair.first_contact - before).to_sec(), enter, delta=0.02 * length)
         self.assertAlmostEqual((pair.intervals[-1].end - before).to_sec(), leave, delta=0.02 * length)
-        self.assertGreater(pair.depth, 0.0004)  # half the plate with the ball's shell; the radius with the plate's
-        self.assertLess(pair.depth, RADIUS + 1e-6)
+        self.assertGreater(pair.deepest.depth, 0.0004)  # half the plate with the ball's shell; the radius with the plate's
+        self.assertLess(pair.deepest.depth, RADIUS + 1e-6)
         self.assertGreater(pair.error_bound.total, 0.0)
         self.assertGreater(len(pair.points), 0)
         a, b = pair.wrench_on_a.force, pair.wrench_on_b.force

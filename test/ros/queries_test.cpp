@@ -49,15 +49,15 @@ class QueriesTest : public ::testing::Test {
 /// The ball rotates in the wall, in as few steps as are checked in one piece.
 QueryMotion::Request heavyRequest() {
   QueryMotion::Request request;
-  request.links = {"ball"};
+  request.motion.link_trajectory.link_names = {"ball"};
   for (int i = 0; i < 16; ++i) {
-    LinkPoses poses;
+    LinkTrajectoryPoint poses;
     poses.time_from_start = ros::Duration(0.1 * i);
     poses.poses.resize(1);
     poses.poses[0].position.x = 0.35;
     poses.poses[0].orientation.z = std::sin(i % 2);
     poses.poses[0].orientation.w = std::cos(i % 2);
-    request.poses.push_back(poses);
+    request.motion.link_trajectory.points.push_back(poses);
   }
   return request;
 }
@@ -186,15 +186,16 @@ class MovedBaseTest : public ::testing::Test {
   /// "body - body: reason" of the pairs that are not checked while the arm turns; without a reason, of contacts.
   std::vector<std::string> uncheckedWithArm(double from, double to) {
     QueryMotion::Request request;
-    request.joint_trajectory.joint_names = {"j_arm"};
+    request.motion.joint_trajectory.joint_names = {"j_arm"};
     for (const double angle : {from, to}) {
-      request.joint_trajectory.points.emplace_back();
-      request.joint_trajectory.points.back().positions = {angle};
-      request.joint_trajectory.points.back().time_from_start = ros::Duration(request.joint_trajectory.points.size());
+      request.motion.joint_trajectory.points.emplace_back();
+      request.motion.joint_trajectory.points.back().positions = {angle};
+      request.motion.joint_trajectory.points.back().time_from_start =
+          ros::Duration(request.motion.joint_trajectory.points.size());
     }
     QueryMotions::Request several;
     several.motions.resize(1);
-    several.motions[0].joint_trajectory = request.joint_trajectory;
+    several.motions[0] = request.motion;
     QueryMotions::Response verdicts;
     queries_->answer(several, verdicts);
     const std::vector<std::string> unchecked = uncheckedOf(request);
@@ -239,13 +240,13 @@ TEST_F(MovedBaseTest, APlanKnowsWhatTheUrdfDoesNotHave) {
 
 TEST_F(MovedBaseTest, PosesOfAnotherLinkKnowIt) {
   QueryMotion::Request request;
-  request.links = {"leaf"};
+  request.motion.link_trajectory.link_names = {"leaf"};
   for (int i = 0; i < 2; ++i) {
-    request.poses.emplace_back();
-    request.poses.back().time_from_start = ros::Duration(i);
-    request.poses.back().poses.resize(1);
-    request.poses.back().poses[0].position.z = 5.0 + i;
-    request.poses.back().poses[0].orientation.w = 1.0;
+    request.motion.link_trajectory.points.emplace_back();
+    request.motion.link_trajectory.points.back().time_from_start = ros::Duration(i);
+    request.motion.link_trajectory.points.back().poses.resize(1);
+    request.motion.link_trajectory.points.back().poses[0].position.z = 5.0 + i;
+    request.motion.link_trajectory.points.back().poses[0].orientation.w = 1.0;
   }
   send(0.0);
   EXPECT_EQ(uncheckedOf(request), std::vector<std::string>());

@@ -6,10 +6,11 @@ import sys
 import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
 from monitor_case import PLATE, RADIUS, MonitorCase, trajectory, wait_for_service
-from sdf_ccd.msg import LinkPoses, RobotMotion, Verdict
+from sdf_ccd.msg import LinkTrajectory, LinkTrajectoryPoint, RobotMotion, Verdict
 from sdf_ccd.srv import QueryMotionRequest, QueryMotions, QueryMotionsRequest, QueryPoints
 
 
@@ -40,15 +41,16 @@ class QueriesTest(MonitorCase):
         self.assertIn('glide', answer.message)
         self.assertEqual(answer.verdict, Verdict.NOT_CHECKED)
 
-        request = QueryMotionRequest(links=['ball'])
+        links = LinkTrajectory(link_names=['ball'])
         for i, x in enumerate((0.0, 1.0)):
             pose = Pose()
             pose.position.x, pose.orientation.w = x, 1.0
-            request.poses.append(LinkPoses(time_from_start=rospy.Duration(float(i)), poses=[pose]))
+            links.points.append(LinkTrajectoryPoint(time_from_start=rospy.Duration(float(i)), poses=[pose]))
+        request = QueryMotionRequest(motion=RobotMotion(link_trajectory=links))
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, Verdict.CONTACT)
-        request.poses[1].poses[0].orientation.w = 0.0
+        links.points[1].poses[0].orientation.w = 0.0
         answer = self.query_motion(request)
         self.assertFalse(answer.success)
         self.assertIn('write orientation.w: 1', answer.message)
@@ -60,14 +62,14 @@ class QueriesTest(MonitorCase):
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertEqual({answer.pairs[0].body_a, answer.pairs[0].body_b}, {'other', 'plate'})
-        self.assertEqual(answer.assumed_joints, ['other_slide'])
-        self.assertAlmostEqual(answer.assumed_positions[0], PLATE, delta=1e-9)
-        self.assertIn('1 joint', answer.message)
+        self.assertEqual(answer.assumed_joints.name, ['other_slide'])
+        self.assertAlmostEqual(answer.assumed_joints.position[0], PLATE, delta=1e-9)
+        self.assertIn('1 joint, other_slide', answer.message)
         request = trajectory('slide', [0.0, 0.3])
-        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        request.motion.other_joints = JointState(name=['other_slide'], position=[0.0])
         answer = self.query_motion(request)
         self.assertEqual(answer.verdict, Verdict.CLEAR)
-        self.assertEqual(answer.assumed_joints, [])
+        self.assertEqual(answer.assumed_joints.name, [])
         request = trajectory('slide', [0.0, 2.5])
         answer = self.query_motion(request)
         self.assertFalse(answer.success)
@@ -86,17 +88,17 @@ class QueriesTest(MonitorCase):
         for _ in range(3):
             self.send(0.3)
         request = trajectory('slide', [0.3, 0.3])
-        for point, velocity in zip(request.joint_trajectory.points, (1.0, -1.0)):
+        for point, velocity in zip(request.motion.joint_trajectory.points, (1.0, -1.0)):
             point.velocities = [velocity]
         self.assertEqual(self.query_motion(request).verdict, Verdict.CLEAR)
-        request.interpolation = QueryMotionRequest.SPLINES  # up to 0.55
+        request.motion.interpolation = RobotMotion.SPLINES  # up to 0.55
         answer = self.query_motion(request)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.verdict, Verdict.CONTACT)
         enter = 0.5 - math.sqrt(0.25 - (PLATE - RADIUS - 0.3))
         self.assertAlmostEqual(answer.pairs[0].first_contact.to_sec(), enter, delta=0.01)
         request = trajectory('slide', [0.0, 0.3])
-        request.other_joints, request.other_positions = ['other_slide'], [0.0]
+        request.motion.other_joints = JointState(name=['other_slide'], position=[0.0])
         for margin, verdict in ((0.15, Verdict.CLEAR), (0.2, Verdict.UNCERTAIN)):
             request.margin = margin
             answer = self.query_motion(request)
@@ -106,14 +108,15 @@ class QueriesTest(MonitorCase):
             self.assertTrue(all(pair.error_bound.total < 0.01 for pair in answer.pairs))
         request.margin = -1.0
         self.assertFalse(self.query_motion(request).success)
-        request.margin, request.interpolation = 0.0, 7
+        request.margin, request.motion.interpolation = 0.0, 7
         self.assertFalse(self.query_motion(request).success)
 
     def test_query_many_motions(self):
         query = wait_for_service('/collision_monitor/query_motions', QueryMotions)
-        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).joint_trajectory)
+        motions = [RobotMotion(joint_trajectory=trajectory('slide', positions).motion.joint_trajectory,
+                               other_joints=JointState(name=['other_slide'], position=[0.0]))
                    for positions in [[0.0, 0.3], [0.0, 1.0]] * 20]
-        request = QueryMotionsRequest(motions=motions, other_joints=['other_slide'], other_positions=[0.0])
+        request = QueryMotionsRequest(motions=motions)
         answer = query(request)
         self.assertTrue(answer.success, answer.message)
         self.assertEqual([motion.verdict for motion in answer.motions], [Verdict.CLEAR, Verdict.CONTACT] * 20)

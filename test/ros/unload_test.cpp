@@ -166,7 +166,7 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
     const auto has_all = [&] {
       const std::vector<PlanBody>& bodies = plans[name].bodies;
       const bool awaits_forces = std::any_of(bodies.begin(), bodies.end(), [](const PlanBody& body) {
-        return (body.no_field + body.no_shell).find("being built") != std::string::npos;
+        return body.field.state == PlanPart::AWAITED || body.shell.state == PlanPart::AWAITED;
       });
       return !bodies.empty() && !awaits_forces && frames.count(name) > 0;
     };
@@ -180,7 +180,7 @@ TEST_F(UnloadTest, TwoOfAKindShareTheirBodies) {
   const auto count = [&](const std::string& name, const std::string& field) {
     const std::vector<PlanBody>& bodies = plans[name].bodies;
     return std::count_if(bodies.begin(), bodies.end(),
-                         [&](const PlanBody& body) { return body.field.find(field) != std::string::npos; });
+                         [&](const PlanBody& body) { return body.field.text.find(field) != std::string::npos; });
   };
   EXPECT_GT(count("/left/monitor", "built"), 0);
   EXPECT_EQ(count("/right/monitor", "built"), 0) << "nothing is made twice";

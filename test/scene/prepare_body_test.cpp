@@ -160,8 +160,8 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
   };
   {
     const BuiltBody left = build("left"), right = build("right");
-    EXPECT_NE(left.report.field, "shared");
-    EXPECT_EQ(right.report.field, "shared");
+    EXPECT_NE(left.report.field.text, "shared");
+    EXPECT_EQ(right.report.field.text, "shared");
     EXPECT_GT(left.report.field_bytes, 0u);
     EXPECT_GT(left.report.shell_bytes, 0u);
     EXPECT_EQ(right.report.field_bytes + right.report.shell_bytes, 0u) << "it takes no more";
@@ -174,13 +174,13 @@ TEST(SharedBodies, AreHeldOnceWhileSomebodyHoldsThem) {
     EXPECT_EQ(right.body.X_frame_B.translation().x(), 2.0);
     options.shell.spacing *= 0.5;
     options.points_across = 0.0;
-    EXPECT_NE(build("right").report.field, "shared") << "it is to be finer";
+    EXPECT_NE(build("right").report.field.text, "shared") << "it is to be finer";
     options.is_shared = false;
-    EXPECT_NE(build("right").report.field, "shared");
+    EXPECT_NE(build("right").report.field.text, "shared");
   }
   options = optionsForContacts(0.01);
   options.is_shared = true;
-  EXPECT_NE(build("left").report.field, "shared") << "nobody holds it any more";
+  EXPECT_NE(build("left").report.field.text, "shared") << "nobody holds it any more";
 }
 
 /// The two arms of a robot.
@@ -202,7 +202,7 @@ TEST(SharedBodies, OfOneSceneAreHeldOnceInAnyCase) {
   EXPECT_GT(left.report.shell_bytes, 0u);
   EXPECT_EQ(right.report.shell_bytes, 0u);
   EXPECT_NE(&*left.body.shell, &*other.body.shell) << "placed elsewhere in its link";
-  EXPECT_EQ(other.report.field, "shared") << "the mesh's field is the same";
+  EXPECT_EQ(other.report.field.text, "shared") << "the mesh's field is the same";
   EXPECT_GT(other.report.shell_bytes, 0u);
 }
 

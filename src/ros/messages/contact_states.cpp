@@ -22,11 +22,11 @@ gazebo_msgs::ContactState toContactState(const PairContact& pair) {
   state.total_wrench = pair.wrench_on_a;
   if (pair.intervals.empty()) return state;
   state.info += fmt::format(" from {:.6f} s, depth {:.3g} m, error bound {:.3g} m", pair.first_contact.toSec(),
-                            pair.depth, pair.deepest.depth_error);
+                            pair.deepest.depth, pair.deepest.depth_error);
   state.wrenches.push_back(pair.wrench_on_a);
   state.contact_positions.push_back(toVector3(toEigen(pair.deepest.position)));
-  state.contact_normals.push_back(opposite(pair.normal));
-  state.depths.push_back(pair.depth);
+  state.contact_normals.push_back(opposite(pair.deepest.normal));
+  state.depths.push_back(pair.deepest.depth);
   return state;
 }
 

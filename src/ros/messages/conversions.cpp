@@ -158,8 +158,6 @@ void setPairContact(const PairResult& pair, const CycleContext& cycle, PairConta
     message.first_contact = message.intervals.front().start;
     setPointContact(pair.deepest, cycle.start, message.deepest);
   }
-  message.depth = message.deepest.depth;
-  message.normal = message.deepest.normal;
   message.points.resize(pair.points.size());
   for (std::size_t i = 0; i < pair.points.size(); ++i) setPointContact(pair.points[i], cycle.start, message.points[i]);
   message.wrench_on_a = toWrench(pair.on_a_W);

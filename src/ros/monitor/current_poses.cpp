@@ -1,7 +1,6 @@
 #include "ros/monitor/current_poses.h"
 
 #include <algorithm>
-#include <map>
 
 #include "common/number_text.h"
 #include "motion/two_body_motion.h"
@@ -27,13 +26,12 @@ std::string poseAbove(const TfHistory& history, const std::string& above, const 
 
 }  // namespace
 
-CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const Scene& scene) {
+CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, const CheckedWorld& world) {
   const RobotModel& robot = frames.robot;
   CurrentPoses now;
+  now.known_by = "tf";
   history.lookup(frames(0), ros::Time(), now.X_WR, now.root_missing);
-  std::map<std::string, int> links;
   for (int link = 0; link < static_cast<int>(robot.links().size()); ++link) {
-    links[frames(link)] = link;
     const TfSpan span = history.span(frames(link));
     const bool moves = span.problem.empty() && !span.is_static;
     if (moves && (now.oldest.isZero() || span.last < now.oldest)) {
@@ -50,18 +48,21 @@ CurrentPoses currentPoses(const TfHistory& history, const RobotFrames& frames, c
       now.joints.missing[joint] = problem;
     }
   }
-  for (const Body& body : scene.bodies) {
-    Carrier carrier;
-    const std::string of_body = withoutLeadingSlash(body.frame);
-    std::vector<std::string> above = history.framesAbove(of_body);
-    above.insert(above.begin(), of_body);
-    const auto frame =
-        std::find_if(above.begin(), above.end(), [&](const auto& name) { return links.count(name) > 0; });
-    Isometry3d X_LF = Isometry3d::Identity();
-    if (frame != above.end() && poseAbove(history, *frame, of_body, X_LF).empty()) {
-      carrier = {links.at(*frame), X_LF * body.X_frame_B};
-    }
-    now.carriers.push_back(carrier);
+  std::vector<Isometry3d> X_WB;
+  posesAt(history, world.bodies, ros::Time(), X_WB, now.bodies.missing);
+  for (std::size_t body = 0; body < world.bodies.size(); ++body) {
+    CarriedBody& carried = now.bodies.bodies.emplace_back();
+    carried.ball_B = world.bodies[body].ball_B;
+    const std::string frame = withoutLeadingSlash(world.bodies[body].frame);
+    std::vector<std::string> above = history.framesAbove(frame);
+    above.insert(above.begin(), frame);
+    int link = -1;
+    const auto of_link =
+        std::find_if(above.begin(), above.end(), [&](const auto& name) { return (link = frames.linkOf(name)) >= 0; });
+    Isometry3d X_LF;
+    const bool is_carried = of_link != above.end() && poseAbove(history, *of_link, frame, X_LF).empty();
+    carried.link = is_carried ? link : -1;
+    carried.X_LB = is_carried ? X_LF * world.bodies[body].X_frame_B : X_WB[body];
   }
   return now;
 }

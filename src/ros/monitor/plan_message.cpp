@@ -1,7 +1,5 @@
 #include "ros/monitor/plan_message.h"
 
-#include <map>
-
 #include "scene/plan/scene_totals.h"
 
 namespace sdf_ccd {
@@ -21,6 +19,21 @@ static_assert(isKind(PairKind::kRequest, LeftOutPair::REQUEST) &&
                   isKind(PairKind::kMayAtRest, LeftOutPair::MAY_AT_REST),
               "as in the messages");
 
+constexpr bool isState(PartState state, int of_message) {
+  return static_cast<int>(state) == of_message;
+}
+static_assert(isState(PartState::kNotNeeded, PlanPart::NOT_NEEDED) && isState(PartState::kReady, PlanPart::READY) &&
+                  isState(PartState::kAwaited, PlanPart::AWAITED) &&
+                  isState(PartState::kUnwanted, PlanPart::NOT_WANTED) && isState(PartState::kFailed, PlanPart::FAILED),
+              "as in the messages");
+
+PlanPart toPlanPart(const PartReport& part) {
+  PlanPart message;
+  message.state = static_cast<std::uint8_t>(part.state);
+  message.text = part.text;
+  return message;
+}
+
 }  // namespace
 
 Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros::Time& now) {
@@ -29,11 +42,9 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
   plan.header.stamp = now;
   plan.header.frame_id = fixed_frame;
   plan.scene_version = world.version();
-  std::map<std::string, std::size_t> bodies;  // by name
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     const BodyReport& report = scene.reports[b];
-    bodies.emplace(body.name, b);
     PlanBody& listed = plan.bodies.emplace_back();
     listed.name = body.name;
     listed.id = b < world.snapshot->body_ids.size() ? world.snapshot->body_ids[b] : b + 1;
@@ -42,14 +53,12 @@ Plan toPlan(const CheckedWorld& world, const std::string& fixed_frame, const ros
     listed.geometry = report.geometry;
     listed.failure = body.failure;
     listed.error_bound = report.bound.total();
-    listed.field = report.field;
+    listed.surface = toPlanPart(report.surface);
+    listed.field = toPlanPart(report.field);
+    listed.shell = toPlanPart(report.shell);
     listed.shell_points = static_cast<std::uint32_t>(report.shell_points);
     listed.bytes = report.field_bytes + report.shell_bytes;
     for (const std::string& warning : report.warnings) plan.warnings.push_back(report.name + ": " + warning);
-  }
-  for (const LeftOutPart& part : scene.parts_left_out) {
-    PlanBody& body = plan.bodies[bodies.at(part.body)];
-    (part.kind == "field" ? body.no_field : body.no_shell) = part.reason;
   }
   for (const PlannedPair& pair : scene.pairs) {
     PlanPair& checked = plan.checked.emplace_back();

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -8,7 +7,7 @@
 
 #include <ros/publisher.h>
 
-#include "ros/monitor/planned_motion.h"
+#include "ros/messages/robot_motion.h"
 #include "ros/monitor/work_arena.h"
 #include "ros/monitor/work_turns.h"
 #include "ros/world/checked_world.h"
@@ -29,6 +28,8 @@ struct QueryLimits {
   double seconds = 2.0;          ///< of computing; the answer follows within milliseconds
   int queries = 4;               ///< at a time
 };
+
+struct QueryWork;
 
 /// Answers query_motion, query_motions and query_points in parallel to the cycles, with lower priority than these, on
 /// at most half of the cores. Several calls at a time take turns. A motion is checked piece by piece, so memory does
@@ -56,22 +57,17 @@ class Queries {
   void answer(const QueryPoints::Request& request, QueryPoints::Response& response);
 
  private:
-  /// One piece of an answer: waits for its turn, and measures its time.
-  class Piece;
+  template <class Request, class Response>
+  using Make = void (Queries::*)(const Request& request, Response& response, QueryWork& work);
+  template <class Request, class Response>
+  void answerWith(Make<Request, Response> make, const Request& request, Response& response);
 
-  template <class Response, class Work>
-  void answerWith(const Work& work, Response& response);
-
-  PlannedScene planFromNow(const std::string& plan_frame, const CheckedWorld& world) const;
-  PlannedMotion plan(const QueryMotion::Request& request, const CheckedWorld& world) const;
-  /// @param used_by  receives what took most of the time, if the answer is cancelled.
-  ///@{
-  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response, std::string& used_by);
-  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by);
-  bool checkOnce(const QueryMotion::Request& request, QueryMotion::Response& response, std::string& used_by,
-                 double& spent);
-  ///@}
-  void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response);
+  std::shared_ptr<const CheckedWorld> currentWorld(std::uint64_t& version) const;
+  PlannedScene planned(const CheckedWorld& world, const std::string& root_frame, bool allow_beyond_limits) const;
+  void checkMotions(const QueryMotions::Request& request, QueryMotions::Response& response, QueryWork& work);
+  void checkMotion(const QueryMotion::Request& request, QueryMotion::Response& response, QueryWork& work);
+  bool checkOnce(const QueryMotion::Request& request, QueryMotion::Response& response, QueryWork& work);
+  void findDistances(const QueryPoints::Request& request, QueryPoints::Response& response, QueryWork& work);
 
   mutable std::mutex world_mutex_;
   std::shared_ptr<const CheckedWorld> world_;  // guarded by world_mutex_

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
@@ -48,7 +49,15 @@ std::string leftOutLines(const Scene& scene) {
     std::size_t most = kNamedPairs;
   };
   std::map<std::pair<std::string, std::string>, Group> groups;
-  for (const LeftOutPart& part : scene.parts_left_out) groups[{part.kind, part.reason}].names.push_back(part.body);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodyReport& report = scene.reports[b];
+    const auto add = [&](const char* kind, const PartReport& part) {
+      if (part.state != PartState::kReady && !part.text.empty()) groups[{kind, part.text}].names.push_back(report.name);
+    };
+    if (!scene.bodies[b].failure.empty()) continue;
+    add("field", report.field);
+    add("shell", report.shell);
+  }
   for (const PairDecision& pair : scene.left_out) {
     Group& group = groups[{"pair", pair.text}];
     group.names.push_back(pairName(pair.body_a, pair.body_b));
@@ -64,6 +73,11 @@ std::string leftOutLines(const Scene& scene) {
     text += names.size() > most ? ", ...\n" : "\n";
   }
   return text;
+}
+
+std::string columnText(const PartReport& part, const std::string& ready) {
+  constexpr std::array<const char*, 5> kNames{"left out", "", "awaited", "not wanted", "failed"};
+  return part.state == PartState::kReady ? ready : kNames[static_cast<std::size_t>(part.state)];
 }
 
 std::string sources(const ErrorSources& bound) {
@@ -99,9 +113,9 @@ std::string planTable(const Scene& scene) {
     cells += report.cells;
     points += report.shell_points;
     const bool has_shell = report.shell_points > 0, has_bound = report.bound.total() > 0.0;
-    rows.push_back({report.name, report.geometry, report.field, std::to_string(report.cells), fixedText(mb, 1),
-                    fixedText(1e3 * report.field_error, 2),
-                    has_shell ? std::to_string(report.shell_points) : "left out",
+    rows.push_back({report.name, report.geometry, columnText(report.field, report.field.text),
+                    std::to_string(report.cells), fixedText(mb, 1), fixedText(1e3 * report.field_error, 2),
+                    columnText(report.shell, std::to_string(report.shell_points)),
                     has_shell ? fixedText(1e3 * report.gap, 2) : "",
                     has_bound ? fixedText(1e3 * report.bound.total(), 2) : "", std::to_string(report.pairs)});
   }

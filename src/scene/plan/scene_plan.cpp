@@ -127,18 +127,29 @@ PlannedPair planPair(int i, int k, const SceneDescription& description, std::vec
   return {i, k, a_shell, b_shell};
 }
 
-void listLeftOut(const BodyDescription& body, const Planned& planned, const BodyNeeds& needs,
-                 std::vector<LeftOutPart>& left_out) {
-  if (!body.failure.empty() || body.geometry.empty()) return;
-  std::string no_shell = whyNoShell(body);
-  if (no_shell.empty() && planned.is_large && planned.has_pair)
-    no_shell = "large; the shells of smaller bodies suffice";
-  const std::string idle = !planned.has_pair               ? "no pair needs it"
-                           : body.forces != Forces::kKnown ? whyNoForces(body.forces)
-                           : needs.triangles               ? "none of its pairs has forces"
-                                                           : "its pairs cannot be checked";
-  if (!needs.field) left_out.push_back({"field", body.name, needs.shell ? "used only as a shell" : idle});
-  if (!needs.shell) left_out.push_back({"shell", body.name, no_shell.empty() ? idle : no_shell});
+PartState withoutForces(Forces forces) {
+  return forces == Forces::kAwaited    ? PartState::kAwaited
+         : forces == Forces::kUnwanted ? PartState::kUnwanted
+                                       : PartState::kFailed;
+}
+
+PartReports partsOf(const BodyDescription& body, const Planned& planned, const BodyNeeds& needs) {
+  const PartReport ready{PartState::kReady, ""};
+  const auto idle = [](const std::string& why) { return PartReport{PartState::kNotNeeded, why}; };
+  if (body.geometry.empty()) return {};
+  PartReports parts{ready, ready, ready};
+  const std::string no_pair = planned.has_pair ? "its pairs cannot be checked" : "no pair needs it";
+  if (!needs.triangles) parts.surface = idle(no_pair);
+  const PartReport without = planned.has_pair && body.forces != Forces::kKnown
+                                 ? PartReport{withoutForces(body.forces), whyNoForces(body.forces)}
+                                 : idle(needs.triangles ? "none of its pairs has forces" : no_pair);
+  if (!needs.field) parts.field = needs.shell ? idle("used only as a shell") : without;
+  if (needs.shell) return parts;
+  const std::string no_shell = whyNoShell(body);
+  parts.shell = !no_shell.empty()                      ? idle(no_shell)
+                : planned.is_large && planned.has_pair ? idle("large; the shells of smaller bodies suffice")
+                                                       : without;
+  return parts;
 }
 
 }  // namespace
@@ -171,9 +182,7 @@ ScenePlan planScene(const SceneDescription& description, const PlanOptions& opti
       }
     }
   }
-  for (int i = 0; i < count; ++i) {
-    listLeftOut(description.bodies[i], planned[i], plan.needs[i], plan.parts_left_out);
-  }
+  for (int i = 0; i < count; ++i) plan.parts.push_back(partsOf(description.bodies[i], planned[i], plan.needs[i]));
   return plan;
 }
 

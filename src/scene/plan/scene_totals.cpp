@@ -17,7 +17,6 @@ Scene plannedScene(const SceneDescription& description, const ScenePlan& plan, c
   Scene scene;
   scene.pairs = plan.pairs;
   scene.left_out = plan.left_out;
-  scene.parts_left_out = plan.parts_left_out;
   scene.visual_only = description.visual_only;
   scene.max_error = options.max_error;
   scene.motion_margin = options.motion_margin;
@@ -29,6 +28,21 @@ std::size_t pairsOfObjects(const BodyList& bodies) {
   const std::size_t objects =
       std::count_if(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_world; });
   return objects * (objects - std::min<std::size_t>(objects, 1)) / 2;
+}
+
+void setParts(const ScenePlan& plan, Scene& scene) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    PartReports& parts = scene.reports[b];
+    if (!body.failure.empty()) {
+      parts.surface = {body.map.empty() ? PartState::kFailed : PartState::kAwaited, body.failure};
+      parts.field = parts.shell = parts.surface;
+      continue;
+    }
+    parts.surface = plan.parts[b].surface;
+    if (parts.field.state != PartState::kReady) parts.field = plan.parts[b].field;
+    if (parts.shell.state != PartState::kReady) parts.shell = plan.parts[b].shell;
+  }
 }
 
 void setTotals(Scene& scene) {

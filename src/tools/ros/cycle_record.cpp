@@ -32,8 +32,8 @@ CycleRecord toRecord(const ContactArray& message) {
   for (const PairContact& pair : message.pairs) {
     record.in_contact += pair.verdict == numberOf(Verdict::kContact);
     record.uncertain += pair.verdict == numberOf(Verdict::kUncertain);
-    if (pair.intervals.empty() || pair.depth <= record.depth) continue;
-    record.depth = pair.depth;
+    if (pair.intervals.empty() || pair.deepest.depth <= record.depth) continue;
+    record.depth = pair.deepest.depth;
     record.body_a = pair.body_a;
     record.body_b = pair.body_b;
   }
