@@ -1,6 +1,6 @@
 // Fuzzes MoveIt's text format of a planning scene.
 #include "fuzz_input.h"
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sdf_ccd;

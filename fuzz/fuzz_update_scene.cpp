@@ -1,7 +1,7 @@
 // Fuzzes requests to update_scene, builds the resulting worlds, and runs cycles in them.
 #include <limits>
 
-#include "ros/world/changing_scene.h"
+#include "ros/world/apply_change.h"
 #include "small_monitor.h"
 
 namespace sdf_ccd::fuzz {
@@ -69,7 +69,7 @@ SceneChange changeOf(Numbers& numbers) {
 void checkText(const ChangingScene& scene, const ChangeSources& sources) {
   attempt([&] {
     std::vector<std::string> warnings;
-    require(!scene.text(sources, warnings).empty(), "a scene has a text");
+    require(!sceneText(scene, sources.history, warnings).empty(), "a scene has a text");
   });
 }
 
@@ -92,7 +92,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     fuzz::attempt([&] {
       ChangingScene next = scene;
       ChangeSources sources{loop.history(), files, limits, 1000, {}};
-      for (std::size_t i = numbers.below(4); i > 0; --i) next.apply(fuzz::changeOf(numbers), sources);
+      for (std::size_t i = numbers.below(4); i > 0; --i) apply(fuzz::changeOf(numbers), sources, next);
       fuzz::checkText(next, sources);
       const auto world = std::make_shared<const CheckedWorld>(editor->next(next.description(limits)));
       scene = std::move(next);

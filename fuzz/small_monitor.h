@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fuzz_input.h"
+#include "robot_monitor/changing_scene.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/monitor/queries.h"
 #include "ros/tf_messages.h"
-#include "ros/world/changing_scene.h"
 #include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::fuzz {
@@ -52,7 +52,7 @@ class SmallMonitor {
     return editor;
   }
 
-  ChangingScene changingScene() const { return {described_, parameters_.pairs, described_.scene}; }
+  ChangingScene changingScene() const { return ChangingScene(startUpScene(described_, parameters_, described_.scene)); }
 
   MonitorLoop& loop() { return *loop_; }
   Queries& queries() { return *queries_; }

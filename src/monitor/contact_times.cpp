@@ -8,8 +8,8 @@
 namespace sdf_ccd {
 namespace {
 
-constexpr int kParts = 4;        // of a gap, at whose ends the bodies are looked at
-constexpr double kNoGap = 1e-9;  // of the span; shorter gaps are none
+constexpr int kParts = 4;              // of a gap, at whose ends the bodies are looked at
+constexpr double kShortestGap = 1e-9;  // of the span; shorter gaps are none
 
 /// What is known of a time.
 struct Sample {
@@ -102,7 +102,7 @@ class TimeSearch {
     const int parts = samples.size() < kFew ? kParts : 2;
     for (std::size_t i = samples.size() - 1; i > 0; --i) {
       const Sample from = samples[i - 1], to = samples[i];
-      if (!from.touches || !to.touches || to.time - from.time < kNoGap * (end_ - start_)) continue;
+      if (!from.touches || !to.touches || to.time - from.time < kShortestGap * (end_ - start_)) continue;
       for (int k = 1; k < parts; ++k) samples.push_back(at(from.time + (to.time - from.time) * k / parts));
     }
     sort(samples);

@@ -3,6 +3,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "robot/moveit_scene.h"
+#include "scene/pair_rules.h"
 #include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {
@@ -49,6 +51,13 @@ BodyDescription emptyWorldBody(const std::string& name, const std::string& frame
   body.X_frame_B = X_frame_B;
   body.is_world = true;
   return body;
+}
+
+std::string whyNoName(const std::string& name) {
+  if (!isSavedName(name))
+    return "object '" + name + "': a name must not be empty, begin or end with a blank, or contain control characters";
+  if (isPattern(name)) return "object " + name + ": a name must not contain * or ?, which are wildcards in patterns";
+  return {};
 }
 
 BodyDescription toBody(const WorldObject& object, const std::string& frame, const ResourceLoader& loader,

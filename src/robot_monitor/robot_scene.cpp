@@ -108,8 +108,7 @@ CurrentJoints RobotScene::Impl::jointsAt(const JointPositions& positions, const 
 
 RobotScene::Impl::Object RobotScene::Impl::objectOf(const WorldObject& object,
                                                     const std::vector<std::string>& may_touch) const {
-  if (object.name.empty() || isPattern(object.name))
-    refuseObject("\"" + object.name + "\"", "a name must not be empty, or contain * or ?, which are wildcards");
+  if (const std::string why = whyNoName(object.name); !why.empty()) throw std::invalid_argument(why);
   if (robot.find(object.name) >= 0) refuseObject(object.name, "the robot has a link of this name");
   if (!object.frame.empty() && robot.find(object.frame) < 0)
     refuseObject(object.name, "the robot has no link \"" + object.frame + "\", its frame");

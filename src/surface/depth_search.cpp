@@ -289,6 +289,8 @@ class DepthSearch::Step {
     const bool at_end = shares[3] + shares[4] + shares[5] >= 0.5;
     Vector3d p_P = Vector3d::Zero();
     for (int k = 0; k < 3; ++k) p_P += (shares[k] + shares[k + 3]) * piece.corners[k];
+    if (isWholeBall(piece)) return solid_.at((at_end ? X_end : X_start) * p_P, piece.nearest);  // not on its surface
+    if (piece.ball >= 0) p_P = ontoBall(piece.ball, p_P);
     const Vector3d p_G = (at_end ? X_end : X_start) * p_P;
     const PointDepth depth = solid_.at(p_G, piece.nearest);
     offer(depth, p_P, p_G, at_end ? piece.end : piece.start);

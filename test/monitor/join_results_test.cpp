@@ -106,8 +106,8 @@ TEST(ResultJoiner, WhatAnUncertainPieceMayTouchIsNotApart) {
   const auto at = [](double y, double height) {
     return translation({0.0123, y, kEdge + kCorner + height}) * onCorner();
   };
-  // Its corner passes over the edge, 5 um deep; later it lands on the edge.
-  std::vector<Isometry3d> poses{at(-0.0313, -5e-6), at(0.0517, -5e-6)};
+  // Its corner touches the edge as it passes over; later it lands on the edge.
+  std::vector<Isometry3d> poses{at(-0.0313, 0.0), at(0.0517, 0.0)};
   for (int i = 0; i < 9; ++i) poses.push_back(at(0.0517, 0.05 + 0.001 * i));
   poses.push_back(at(0.0, 0.05));
   poses.push_back(at(0.0, -0.003));

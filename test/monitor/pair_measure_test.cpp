@@ -52,7 +52,7 @@ TEST(PairMeasure, ALargeBodysSurfaceIsSearchedForInsideASmallOne) {
   Monitor monitor(build({description.bodies[0], description.bodies[1]}, options), soft());
   const PairResult pair = monitor.run(motion, {}).pairs[0];
   EXPECT_TRUE(pair.measured);
-  EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, 0.03);
+  EXPECT_GE(pair.deepest.depth + pair.deepest.depth_error, 0.0298);  // of the mesh
   EXPECT_NEAR(pair.deepest.depth, 0.03, 3e-4);
   EXPECT_LT(pair.deepest.depth_error, 2e-4);
 }

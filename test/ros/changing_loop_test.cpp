@@ -5,6 +5,7 @@
 #include "ros/loop_case.h"
 #include "ros/messages/conversions.h"
 #include "ros/monitor/proximity_measure.h"
+#include "ros/tf/seconds_between.h"
 #include "sdf_ccd/scene.h"
 
 namespace sdf_ccd::changing_loop_test {
@@ -119,10 +120,10 @@ TEST_F(ChangingLoopTest, AMapThatIsTooOldIsNotChecked) {
   for (const bool has_tile : {true, false}) {
     plate().map = has_tile ? "octomap" : "";
     const std::shared_ptr<CheckedWorld> world = checked(editor_.next(description_));
-    world->map_age = std::make_shared<MapAge>("/map", 1.0, ros::Time(10.0));
+    world->map_age = std::make_shared<MapAge>("/map", 1.0, sinceEpoch(ros::Time(10.0)));
     loop_->adopt(*loop_->prepare(world));
     int i = has_tile ? 0 : 100;
-    if (!has_tile) world->map_age->set(ros::Time(10.0 + 100 * kPeriod));
+    if (!has_tile) world->map_age->set(sinceEpoch(ros::Time(10.0 + 100 * kPeriod)));
     for (const int end = i + 25; i < end; ++i) cycle(i);
     EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << last().reason;
     for (const int end = i + 10; i < end; ++i) cycle(i);
@@ -130,7 +131,7 @@ TEST_F(ChangingLoopTest, AMapThatIsTooOldIsNotChecked) {
     ASSERT_FALSE(last().unchecked.empty());
     EXPECT_EQ(last().unchecked[0].reason, "the last map on /map is older than 1 s (octomap/max_age)");
     EXPECT_EQ(last().cycle.not_checked, has_tile ? 2u : 3u) << "only the tile's pairs, if there is a tile";
-    world->map_age->set(ros::Time(10.0 + i * kPeriod));
+    world->map_age->set(sinceEpoch(ros::Time(10.0 + i * kPeriod)));
     for (const int end = i + 10; i < end; ++i) cycle(i);
     EXPECT_EQ(last().verdict, numberOf(Verdict::kClear)) << "the same map was received again";
   }

@@ -9,7 +9,9 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "ros/tf_messages.h"
-#include "ros/world/changing_scene.h"
+#include "ros/world/apply_change.h"
+#include "ros/world/checked_world.h"
+#include "ros/world/describe_scene.h"
 #include "scene/name_pair.h"
 
 namespace sdf_ccd::test {
@@ -37,17 +39,26 @@ class ChangingSceneCase : public ::testing::Test {
     described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
     files_ = std::make_unique<RequestFiles>(std::vector<std::string>{folder_.string()},
                                             [](const std::string& uri) { return loadLocalResource(uri, {}, ""); });
-    scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene);
+    begin();
     history_.add(message({stampedTransform("base", "arm", kNow, 2.0), stampedTransform("arm", "tool", kNow, 0.0),
                           stampedTransform("tool", "tip", kNow, 0.5), stampedTransform("base", "belt", kNow, 7.0)}),
                  false);
+  }
+
+  /// Starts again, as described.
+  void begin() { scene_ = std::make_unique<ChangingScene>(startUpScene(described_, parameters_, described_.scene)); }
+
+  std::vector<std::string> objects() const {
+    std::vector<std::string> names;
+    for (const auto& [name, object] : scene_->objects()) names.push_back(name);
+    return names;
   }
 
   void apply(const SceneChange& change) { apply(std::vector<SceneChange>{change}); }
   void apply(const std::vector<SceneChange>& changes) {
     ChangingScene next = *scene_;
     ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
-    for (const SceneChange& change : changes) next.apply(change, sources);
+    for (const SceneChange& change : changes) sdf_ccd::apply(change, sources, next);
     *scene_ = next;
   }
   std::string refusal(const SceneChange& change) {

@@ -49,9 +49,9 @@ TEST_F(ChangingSceneFilesTest, NamesWithBlanksAtTheirEndsAreNeitherTakenNorSaved
   // A world file may have named it so; when read back, it would be another object.
   BodyDescription trailing = body("a b");
   trailing.name = "a ";
-  scene_->set(trailing);
-  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
-  EXPECT_NE(test::failureOf<std::invalid_argument>([&] { scene_->text(sources, sources.warnings); }).find("'a '"),
+  scene_->add(trailing);
+  std::vector<std::string> warnings;
+  EXPECT_NE(test::failureOf<std::invalid_argument>([&] { sceneText(*scene_, history_, warnings); }).find("'a '"),
             std::string::npos);
 }
 
@@ -180,8 +180,8 @@ TEST_F(ChangingSceneFilesTest, WhatIsWrittenIsReadAgain) {
   all.meshes[0].triangles[0].vertex_indices = {{0, 1, 2}};
   all.header.frame_id = "belt";
   apply(all);
-  ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
-  std::ofstream(folder_ / "world.scene") << scene_->text(sources, sources.warnings);
+  std::vector<std::string> warnings;
+  std::ofstream(folder_ / "world.scene") << sceneText(*scene_, history_, warnings);
   SceneChange load = change(SceneChange::LOAD, "");
   load.file = (folder_ / "world.scene").string();
   const BodyDescription before = body("all");
@@ -196,7 +196,7 @@ TEST_F(ChangingSceneFilesTest, WhatIsWrittenIsReadAgain) {
   EXPECT_EQ(plane.offset, -0.5);
   const auto& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(after.geometry[4].shape);
   EXPECT_EQ(mesh.vertices[1].x(), 1.0 / 3.0);
-  EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"all", "table"}));
+  EXPECT_EQ(objects(), (std::vector<std::string>{"all", "table"}));
 }
 
 }  // namespace sdf_ccd::changing_scene_files_test

@@ -36,9 +36,9 @@ TEST_F(ChangingSceneTest, AddsMovesAndRemoves) {
   EXPECT_EQ(body("box").name, "");
   EXPECT_EQ(refusal(change(SceneChange::REMOVE)), "there is no object box");
   apply({box("a1"), box("a2"), box("b"), change(SceneChange::REMOVE, "a*")});
-  EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"b", "table"}));
+  EXPECT_EQ(objects(), (std::vector<std::string>{"b", "table"}));
   apply(change(SceneChange::REMOVE, "*"));
-  EXPECT_TRUE(scene_->objects().empty());
+  EXPECT_TRUE(objects().empty());
 }
 
 TEST_F(ChangingSceneTest, AConeStandsOnItsBase) {
@@ -57,7 +57,7 @@ TEST_F(ChangingSceneTest, AConeStandsOnItsBase) {
 TEST_F(ChangingSceneTest, APatternThatNamesNothingIsSaid) {
   ChangeSources sources{history_, *files_, limits_, limits_.triangles, {}};
   ChangingScene next = *scene_;
-  next.apply(rule(SceneChange::ALLOW, "zzz", "a*"), sources);
+  sdf_ccd::apply(rule(SceneChange::ALLOW, "zzz", "a*"), sources, next);
   EXPECT_EQ(sources.warnings, std::vector<std::string>{"no body is named zzz, yet"});
 }
 
@@ -109,7 +109,7 @@ TEST_F(ChangingSceneTest, RulesEndAndBeginTheWatch) {
 
   parameters_.pairs.allowed = {{"*", "table"}};
   described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
-  scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene);
+  begin();
   EXPECT_TRUE(isWatched("arm", "tool") && !isWatched("base", "table"));
   EXPECT_EQ(reason("arm", "table"), "allowed_pairs: * - table");
   apply(rule(SceneChange::CHECK, "*", "table"));
@@ -253,7 +253,7 @@ TEST_F(ChangingSceneTest, NamesHoldNoWildcards) {
     EXPECT_NE(refusal(attach).find("must not contain * or ?"), std::string::npos) << name;
   }
   apply({box(), change(SceneChange::REMOVE, "bo?")});
-  EXPECT_EQ(scene_->objects(), (std::vector<std::string>{"table"}));
+  EXPECT_EQ(objects(), (std::vector<std::string>{"table"}));
   apply(rule(SceneChange::ALLOW, "*", "table"));
 }
 
@@ -261,7 +261,7 @@ TEST_F(ChangingSceneTest, NamesOfALiveMapsTilesAreItsOwn) {
   apply(box("octomap/0_0_0"));  // there is no such map
   parameters_.live_map.topic = "/octomap";
   described_ = describeScene(parameters_, [](const std::string&) { return Resource(); });
-  scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene);
+  begin();
   const std::string why = "octomap/0_0_0: names that begin with octomap/ are reserved for the live map's tiles";
   EXPECT_EQ(refusal(box("octomap/0_0_0")), why);
   const std::string world = (folder_ / "w.yaml").string();

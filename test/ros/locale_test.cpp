@@ -5,7 +5,7 @@
 #include "common/settings/yaml_settings.h"
 #include "oracle/files.h"
 #include "oracle/german_locale.h"
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 #include "ros/parameters/world_file.h"
 
 namespace sdf_ccd::locale_test {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/scene_case.h"
+#include "ros/tf/seconds_between.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd::objects_in_map_test {
@@ -67,7 +68,10 @@ TEST_F(ObjectsInMapTest, WhatIsGraspedIsWhereItWasAndStillIs) {
   description_.bodies[1].frame = "hand";
   const auto built = firstWorld(test::build(description_), description_);
   const auto grasped = [&](double time) {
-    return masks(CheckedWorld(built->snapshot, {{"of world", ros::Time(time)}}), "world", 0.0, true).at("of world");
+    ChangingObject object;
+    object.link = "arm";
+    object.attached_since = sinceEpoch(ros::Time(time));
+    return masks(CheckedWorld(built->snapshot, {{"of world", object}}), "world", 0.0, true).at("of world");
   };
   EXPECT_TRUE(isAt(grasped(105.0), 105.0));
   EXPECT_TRUE(grasped(104.9).isWithin(Vector3d(104.95, 0, 0), 0.01));

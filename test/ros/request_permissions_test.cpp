@@ -1,4 +1,4 @@
-#include "ros/parameters/request_permissions.h"
+#include "robot_monitor/request_permissions.h"
 
 #include "ros/changing_scene_case.h"
 
@@ -9,9 +9,9 @@ using namespace test;
 class RequestPermissionsTest : public ChangingSceneCase {
  protected:
   void permit(const std::vector<std::string>& kinds, const std::vector<std::string>& protected_bodies = {}) {
-    RequestPermissions permissions = permissionsOf(kinds);
-    permissions.protected_bodies = protected_bodies;
-    scene_ = std::make_unique<ChangingScene>(described_, parameters_.pairs, described_.scene, permissions);
+    parameters_.requests = permissionsOf(kinds);
+    parameters_.requests.protected_bodies = protected_bodies;
+    begin();
   }
   void expectRefused(const SceneChange& change, const std::string& parameter) {
     EXPECT_NE(refusal(change).find(parameter), std::string::npos) << refusal(change);
@@ -125,9 +125,9 @@ TEST_F(RequestPermissionsTest, VoxelsOfAProtectedMapAreNotJudgedAsAnObjectOfRequ
   for (const bool is_protected : {false, true}) {
     permit({"add", "move", "rules"}, is_protected ? std::vector<std::string>{"octomap/*"} : std::vector<std::string>());
     const auto setTiles = [&] {
-      const auto declared = scene_->declared();
+      const auto declared = [&](const char* name) { return scene_->object(name).declared; };
       scene_->setTiles({of_box, of_table},
-                       {{of_box.name, {"box", declared.at("box")}}, {of_table.name, {"table", declared.at("table")}}},
+                       {{of_box.name, {"box", declared("box")}}, {of_table.name, {"table", declared("table")}}},
                        nullptr);
     };
     apply({box(), rule(SceneChange::ALLOW, "box", "arm")});

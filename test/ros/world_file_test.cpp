@@ -7,7 +7,7 @@
 #include "oracle/failure.h"
 #include "oracle/files.h"
 #include "oracle/test_data.h"
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 
 namespace sdf_ccd::world_file_test {
 

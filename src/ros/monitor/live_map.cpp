@@ -10,10 +10,10 @@
 #include "common/seconds_since.h"
 #include "common/shown_text.h"
 #include "field/grid_cell.h"
+#include "robot_monitor/awaited_tile.h"
 #include "ros/monitor/low_priority.h"
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
-#include "ros/world/world_bodies.h"
 #include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
@@ -93,7 +93,7 @@ void LiveMap::run(const char* what, const std::function<void()>& job) const {
 
 /// Otherwise a map would be trusted forever after its publisher has ended.
 void LiveMap::checkAge() {
-  if (in_scene_ == InScene::kAwaited || !age_ || !age_->isTooOld(ros::Time::now())) return;
+  if (in_scene_ == InScene::kAwaited || !age_ || !age_->isTooOld(sinceEpoch(ros::Time::now()))) return;
   editor_.setMap({awaitedTile(history_.fixedFrame(), age_->text())}, {}, nullptr, arena_);
   in_scene_ = InScene::kAwaited;
   ROS_WARN("%s: the robot is not checked against it", age_->text().c_str());
@@ -142,7 +142,7 @@ std::string LiveMap::frameOf(const octomap_msgs::Octomap& message) const {
 
 /// Begins a map with another frame or resolution than the last one.
 void LiveMap::begin(const std::string& frame, double resolution, const VoxelMapOptions& options) {
-  map_ = std::make_unique<VoxelMap>(LiveMapParameters::kName, frame, options);
+  map_ = std::make_unique<VoxelMap>(kLiveMap, frame, options);
   frame_ = frame;
   resolution_ = resolution;
   tiles_.clear();
@@ -229,8 +229,9 @@ void LiveMap::process(const octomap_msgs::Octomap& message, const ros::Time& rec
   const double built = secondsSince(start);
   const std::size_t made = change.made.size();
   std::shared_ptr<MapAge> age;
-  if (parameters_.max_age > 0.0) age = std::make_shared<MapAge>(parameters_.topic, parameters_.max_age, received);
-  if (!apply(change, age) && age_) age_->set(received);
+  if (parameters_.max_age > 0.0)
+    age = std::make_shared<MapAge>(parameters_.topic, parameters_.max_age, sinceEpoch(received));
+  if (!apply(change, age) && age_) age_->set(sinceEpoch(received));
   unknown_ = robot.unknown();
   unproven_ = change.unproven;
   const std::string ignored =

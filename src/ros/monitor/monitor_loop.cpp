@@ -146,7 +146,7 @@ TfTracker::Step MonitorLoop::step(const ros::Time& now, const CycleRequest& requ
     distances_->forget();
   }
   if (step == TfTracker::Step::kCycle) {
-    addOutdatedMap(*world_, now, cycle_.motion.missing);
+    addOutdatedMap(world_->map_age.get(), sinceEpoch(now), scene().bodies, cycle_.motion.missing);
     request_ = request;
     run(request);
     findUnchecked();
@@ -191,7 +191,7 @@ void MonitorLoop::findUnchecked() {
 
 void MonitorLoop::trackContacts(const CycleRequest& request) {
   if (!request.wantsContacts()) return contacts_.endAllAsLost();
-  contacts_.update({*result_, cycle_.motion, cycle_.recorded, std::chrono::nanoseconds(cycle_.origin.toNSec())});
+  contacts_.update({*result_, cycle_.motion, cycle_.recorded, sinceEpoch(cycle_.origin)});
 }
 
 void MonitorLoop::setOverlaps(OverlapNotes& notes) {
@@ -236,8 +236,7 @@ std::string MonitorLoop::movingFixedFrame() const {
 }
 
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
-  return distances_->update(cycle_.motion, *result_, range,
-                            {std::chrono::nanoseconds(cycle_.origin.toNSec()), &cycle_.gaps});
+  return distances_->update(cycle_.motion, *result_, range, {sinceEpoch(cycle_.origin), &cycle_.gaps});
 }
 
 void MonitorLoop::reset() {

@@ -18,9 +18,12 @@ int threads() {
 MonitorServices::MonitorServices(const ros::NodeHandle& private_node, const std::atomic<bool>& stop)
     : stop_(stop), node_(private_node), spinner_(threads(), &queue_) {
   node_.setCallbackQueue(&queue_);
-  services_ = {node_.advertiseService("query_motion", &MonitorServices::queryMotion, this),
-               node_.advertiseService("query_motions", &MonitorServices::queryMotions, this),
-               node_.advertiseService("query_points", &MonitorServices::queryPoints, this),
+  services_ = {node_.advertiseService("query_motion",
+                                      &MonitorServices::query<QueryMotion::Request, QueryMotion::Response>, this),
+               node_.advertiseService("query_motions",
+                                      &MonitorServices::query<QueryMotions::Request, QueryMotions::Response>, this),
+               node_.advertiseService("query_points",
+                                      &MonitorServices::query<QueryPoints::Request, QueryPoints::Response>, this),
                node_.advertiseService("update_scene", &MonitorServices::updateScene, this),
                node_.advertiseService("get_plan", &MonitorServices::getPlan, this),
                node_.advertiseService("reset", &MonitorServices::reset, this)};
@@ -55,52 +58,36 @@ bool MonitorServices::isReady(std::string& why_not) {
   return queries_ != nullptr;
 }
 
-bool MonitorServices::queryMotion(QueryMotion::Request& request, QueryMotion::Response& response) {
-  answer(request, response);
-  return true;
-}
-
-bool MonitorServices::queryMotions(QueryMotions::Request& request, QueryMotions::Response& response) {
-  answer(request, response);
-  return true;
-}
-
-bool MonitorServices::queryPoints(QueryPoints::Request& request, QueryPoints::Response& response) {
-  answer(request, response);
+/// Answers once the monitor is ready, and until it ends.
+template <class Response, class Answer>
+bool MonitorServices::serve(Response& response, const Answer& answer) {
+  const Response none = response;
+  if (!isReady(response.message)) return true;
+  const CancelScope scope(stop_);
+  try {
+    answer();
+  } catch (const Cancelled&) {
+    response = none;
+    response.message = "the monitor is shutting down";
+  }
   return true;
 }
 
 template <class Request, class Response>
-void MonitorServices::answer(const Request& request, Response& response) {
-  if (!isReady(response.message)) return;
-  const CancelScope scope(stop_);
-  try {
-    queries_->answer(request, response);
-  } catch (const Cancelled&) {
-    response = {};
-    response.message = "the monitor is shutting down";
-  }
+bool MonitorServices::query(Request& request, Response& response) {
+  return serve(response, [&] { queries_->answer(request, response); });
 }
 
 bool MonitorServices::updateScene(UpdateScene::Request& request, UpdateScene::Response& response) {
   response.failed_change = -1;
-  if (!isReady(response.message)) return true;
-  const CancelScope scope(stop_);
-  try {
-    editor_->update(request, response);
-  } catch (const Cancelled&) {
-    response = {};
-    response.failed_change = -1;
-    response.message = "the monitor is shutting down";
-  }
-  return true;
+  return serve(response, [&] { editor_->update(request, response); });
 }
 
 bool MonitorServices::getPlan(GetPlan::Request&, GetPlan::Response& response) {
-  if (!isReady(response.message)) return true;
-  response.plan = toPlan(*queries_->world(), fixed_frame_, ros::Time::now());
-  response.success = true;
-  return true;
+  return serve(response, [&] {
+    response.plan = toPlan(*queries_->world(), fixed_frame_, ros::Time::now());
+    response.success = true;
+  });
 }
 
 /// Nothing is known of contacts until the next cycle after each reset.

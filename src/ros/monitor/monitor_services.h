@@ -25,8 +25,8 @@ namespace sdf_ccd {
 ///   update_scene   sdf_ccd/UpdateScene  changes the world's objects and the pairs, while the monitor runs
 ///   get_plan       sdf_ccd/GetPlan      what is checked now
 ///   reset          std_srvs/Empty       forgets all contacts; the next cycle begins with the next transforms. Fails
-///   more
-///                                       than once a second, and where the parameter requests/allow does not hold it
+///                                       more than once a second, and where the parameter requests/allow does not hold
+///                                       it
 /// Until the monitor is ready, the responses say what it waits for.
 class MonitorServices {
  public:
@@ -51,16 +51,15 @@ class MonitorServices {
   void stop();
 
  private:
-  bool queryMotion(QueryMotion::Request& request, QueryMotion::Response& response);
-  bool queryMotions(QueryMotions::Request& request, QueryMotions::Response& response);
-  bool queryPoints(QueryPoints::Request& request, QueryPoints::Response& response);
+  template <class Request, class Response>
+  bool query(Request& request, Response& response);
   bool updateScene(UpdateScene::Request& request, UpdateScene::Response& response);
   bool getPlan(GetPlan::Request& request, GetPlan::Response& response);
   bool reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
   bool isReady(std::string& why_not);
   std::string whyNoReset();
-  template <class Request, class Response>
-  void answer(const Request& request, Response& response);
+  template <class Response, class Answer>
+  bool serve(Response& response, const Answer& answer);
 
   const std::atomic<bool>& stop_;
   std::atomic<bool> reset_requested_{false};

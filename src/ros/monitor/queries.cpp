@@ -9,6 +9,7 @@
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
 #include "ros/monitor/query_piece.h"
+#include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
 namespace {
@@ -49,7 +50,7 @@ std::shared_ptr<const CheckedWorld> Queries::world() const {
 std::shared_ptr<const CheckedWorld> Queries::currentWorld(std::uint64_t& version) const {
   std::shared_ptr<const CheckedWorld> now = world();
   version = now->version();
-  if (now->map_age && now->map_age->isTooOld(ros::Time::now())) refuse(now->map_age->text());
+  if (now->map_age && now->map_age->isTooOld(sinceEpoch(ros::Time::now()))) refuse(now->map_age->text());
   return now;
 }
 

@@ -9,8 +9,8 @@
 
 #include "common/number_text.h"
 #include "common/seconds_since.h"
+#include "robot_monitor/awaited_tile.h"
 #include "ros/monitor/low_priority.h"
-#include "ros/world/world_bodies.h"
 #include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
@@ -87,8 +87,8 @@ SceneEditor::SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedSce
         parts_.queries.setWorld(world);
       }),
       requests_(kMaxCallers, "changes of the scene are being made"),
-      scene_(std::make_shared<const ChangingScene>(described, parameters.pairs, parts.loop.world()->description(),
-                                                   parameters.requests)),
+      scene_(std::make_shared<const ChangingScene>(
+          startUpScene(described, parameters, parts.loop.world()->description()))),
       last_(parts.loop.world()) {}
 
 SceneEditor::~SceneEditor() = default;
@@ -128,7 +128,7 @@ bool SceneEditor::makeNext(Draft& draft) {
   draft.arena.run([&] {
     const auto snapshot = editor_->next(draft.scene.description(limits_), *draft.parts);
     if (!snapshot) return;
-    const auto world = std::make_shared<CheckedWorld>(snapshot, draft.scene.attachedSince(), draft.scene.declared());
+    const auto world = std::make_shared<CheckedWorld>(snapshot, draft.scene.objects());
     world->map_age = draft.scene.mapAge();
     draft.world = world;
   });
@@ -163,7 +163,7 @@ std::shared_ptr<const ChangingScene> SceneEditor::scene() {
 void SceneEditor::save(const std::string& file, const ChangingScene& scene, ChangeSources& sources) {
   if (std::filesystem::path(sources.files.path(file)).extension() != ".scene")
     throw std::invalid_argument("save_file " + file + " does not end in .scene");
-  sources.files.write(file, scene.text(sources, sources.warnings));
+  sources.files.write(file, sceneText(scene, sources.history, sources.warnings));
 }
 
 void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Response& response, std::string& making) {
@@ -174,7 +174,7 @@ void SceneEditor::edit(const UpdateScene::Request& request, UpdateScene::Respons
     throw std::invalid_argument("more than " + std::to_string(limits_.objects) + " changes in one request");
   for (const SceneChange& change : request.changes) {
     response.failed_change = static_cast<std::int32_t>(&change - request.changes.data());
-    draft.scene.apply(change, sources);
+    apply(change, sources, draft.scene);
   }
   response.failed_change = -1;
   try {
@@ -263,7 +263,7 @@ void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Respo
     response.message = error.what();
   }
   response.scene_version = world()->version();
-  response.objects = scene()->objects();
+  for (const auto& [name, object] : scene()->objects()) response.objects.push_back(name);
 }
 
 }  // namespace sdf_ccd

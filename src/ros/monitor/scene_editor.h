@@ -10,7 +10,7 @@
 #include "ros/monitor/work_arena.h"
 #include "ros/monitor/work_turns.h"
 #include "ros/monitor/world_handover.h"
-#include "ros/world/changing_scene.h"
+#include "ros/world/apply_change.h"
 #include "sdf_ccd/UpdateScene.h"
 
 namespace sdf_ccd {

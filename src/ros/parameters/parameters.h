@@ -10,11 +10,11 @@
 #include "common/settings/setting.h"
 #include "monitor/map/voxel_map.h"
 #include "monitor/proximity.h"
+#include "robot/world_shapes.h"
 #include "robot_monitor/overlapping_pairs.h"
+#include "robot_monitor/request_permissions.h"
 #include "robot_monitor/robot_pair_traits.h"
 #include "ros/messages/markers.h"
-#include "ros/parameters/request_permissions.h"
-#include "ros/parameters/world_object.h"
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "scene/pair_rules.h"
@@ -35,8 +35,6 @@ struct ProximityParameters {
 
 /// The world as an OctoMap received on a topic, also from the parameters `octomap/…`.
 struct LiveMapParameters {
-  static constexpr const char* kName = "octomap";  ///< of the map; its tiles are named "octomap/x_y_z"
-
   std::string topic;  ///< empty: none
   UnknownSpace unknown = UnknownSpace::kFree;
   double unknown_distance = 0.5;  ///< [m]

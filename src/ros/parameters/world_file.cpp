@@ -6,7 +6,7 @@
 #include "common/files/regular_file.h"
 #include "common/settings/yaml_settings.h"
 #include "common/text_limits.h"
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 #include "ros/parameters/world_parameters.h"
 
 namespace sdf_ccd {

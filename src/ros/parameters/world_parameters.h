@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "common/settings/settings_reader.h"
-#include "ros/parameters/world_object.h"
+#include "robot/world_shapes.h"
 
 namespace sdf_ccd {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include <ros/time.h>
@@ -18,6 +19,10 @@ double secondsBetween(const Time& from, const Time& to) {
   constexpr std::int64_t kPerSecond = 1000000000;
   const std::int64_t difference = static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
   return static_cast<double>(difference / kPerSecond) + 1e-9 * static_cast<double>(difference % kPerSecond);
+}
+
+inline std::chrono::nanoseconds sinceEpoch(const ros::Time& time) {
+  return std::chrono::nanoseconds(time.toNSec());
 }
 
 }  // namespace sdf_ccd

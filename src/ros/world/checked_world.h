@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "monitor/map/voxel_mask.h"
+#include "robot_monitor/changing_scene.h"
 #include "ros/tf/tf_tracker.h"
-#include "ros/world/map_age.h"
 #include "sdf_ccd/scene.h"
 
 namespace sdf_ccd {
@@ -31,15 +31,17 @@ struct CheckedWorld {
   std::size_t allowed_by_requests;  ///< allowedByRequests()
   std::shared_ptr<MapAge> map_age;  ///< of its live map; null if it has none, or one that never gets too old
 
-  explicit CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot,
-                        std::map<std::string, ros::Time> of_attached = {},
-                        std::map<std::string, std::uint64_t> of_declared = {})
+  explicit CheckedWorld(std::shared_ptr<const WorldSnapshot> of_snapshot, const ChangingScene::Objects& objects = {})
       : snapshot(std::move(of_snapshot)),
-        attached_since(std::move(of_attached)),
-        declared(std::move(of_declared)),
         bodies(trackedBodies(*snapshot->scene)),
         mask_error(maskError(*snapshot->scene)),
-        allowed_by_requests(allowedByRequests(*snapshot->description)) {}
+        allowed_by_requests(allowedByRequests(*snapshot->description)) {
+    for (const auto& [name, object] : objects) {
+      declared.emplace(name, object.declared);
+      if (!object.link.empty())
+        attached_since.emplace(name, ros::Time().fromNSec(static_cast<std::uint64_t>(object.attached_since.count())));
+    }
+  }
 
   std::uint64_t version() const { return snapshot->version; }
   const Scene& scene() const { return *snapshot->scene; }

@@ -7,8 +7,8 @@
 #include "common/files/regular_file.h"
 #include "common/shown_text.h"
 #include "robot/object_body.h"
+#include "robot_monitor/awaited_tile.h"
 #include "ros/parameters/world_file.h"
-#include "ros/world/world_bodies.h"
 
 namespace sdf_ccd {
 namespace {
@@ -70,7 +70,7 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
     if (!std::filesystem::is_directory(root, error))
       described.warnings.push_back("resource_roots: the folder " + root + " does not exist, so requests cannot use it");
   }
-  if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(LiveMapParameters::kName) + "/";
+  if (!parameters.live_map.topic.empty()) described.tiles_begin = std::string(kLiveMap) + "/";
   for (const BodyDescription& body : described.scene.bodies) requireNoTile(body.name, described.tiles_begin);
   if (!parameters.live_map.topic.empty()) {
     const std::string why = "no map has been received on " + parameters.live_map.topic + " yet";
@@ -89,10 +89,9 @@ DescribedScene describeScene(const MonitorParameters& parameters, const Resource
   return described;
 }
 
-void requireNoTile(const std::string& body, const std::string& tiles_begin) {
-  if (tiles_begin.empty() || body.rfind(tiles_begin, 0) != 0) return;
-  throw std::invalid_argument(body + ": names that begin with " + tiles_begin +
-                              " are reserved for the live map's tiles");
+StartUpScene startUpScene(const DescribedScene& described, const MonitorParameters& parameters,
+                          const SceneDescription& scene) {
+  return {described.robot, described.tf_prefix, described.tiles_begin, parameters.pairs, parameters.requests, scene};
 }
 
 std::shared_ptr<const Scene> buildDescribed(DescribedScene& described, const ScenePlan& plan,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "robot_monitor/changing_scene.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "ros/parameters/parameters.h"
 #include "ros/tf/robot_frames.h"
@@ -33,8 +34,9 @@ struct DescribedScene {
 /// is reserved for a live map's tiles.
 DescribedScene describeScene(const MonitorParameters& parameters, const ResourceLoader& loader);
 
-/// @throws std::invalid_argument if the body's name is reserved for a live map's tiles.
-void requireNoTile(const std::string& body, const std::string& tiles_begin);
+/// What requests change the scene from. @param scene  that was built.
+StartUpScene startUpScene(const DescribedScene& described, const MonitorParameters& parameters,
+                          const SceneDescription& scene);
 
 /// Builds the planned scene, with the same options, then sets aside pairs that overlap at rest, as the rule says.
 /// @param progress  called with the body's name and the fraction of all bodies done.

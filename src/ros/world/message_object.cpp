@@ -5,7 +5,6 @@
 
 #include "common/number_text.h"
 #include "common/refuse.h"
-#include "common/shown_text.h"
 #include "ros/messages/conversions.h"
 
 namespace sdf_ccd {
@@ -67,12 +66,6 @@ Isometry3d poseIn(const geometry_msgs::Pose& pose, const std::string& name) {
   } catch (const std::invalid_argument& problem) {
     refuse(name + ": " + problem.what());
   }
-}
-
-void requireName(const std::string& name, const std::string& what, const RequestLimits& limits) {
-  if (name.empty()) refuse(what + " is missing");
-  if (name.size() > limits.name) refuse(what + " has more than " + std::to_string(limits.name) + " characters");
-  if (name != shownText(name)) refuse(what + " " + shownText(name) + " contains control characters");
 }
 
 bool hasShapes(const SceneChange& message) {

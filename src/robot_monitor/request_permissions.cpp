@@ -1,4 +1,4 @@
-#include "ros/parameters/request_permissions.h"
+#include "robot_monitor/request_permissions.h"
 
 #include <algorithm>
 #include <array>
@@ -10,15 +10,21 @@
 namespace sdf_ccd {
 namespace {
 
-using Kind = std::pair<const char*, bool RequestPermissions::*>;
+using NamedKind = std::pair<const char*, bool RequestPermissions::*>;
 
-constexpr std::array<Kind, 7> kKinds{
-    Kind{"add", &RequestPermissions::add},       Kind{"move", &RequestPermissions::move},
-    Kind{"attach", &RequestPermissions::attach}, Kind{"rules", &RequestPermissions::rules},
-    Kind{"clear", &RequestPermissions::clear},   Kind{"reset", &RequestPermissions::reset},
-    Kind{"limits", &RequestPermissions::limits}};
+constexpr std::array<NamedKind, 7> kKinds{
+    NamedKind{"add", &RequestPermissions::add},       NamedKind{"move", &RequestPermissions::move},
+    NamedKind{"attach", &RequestPermissions::attach}, NamedKind{"rules", &RequestPermissions::rules},
+    NamedKind{"clear", &RequestPermissions::clear},   NamedKind{"reset", &RequestPermissions::reset},
+    NamedKind{"limits", &RequestPermissions::limits}};
 
 }  // namespace
+
+void requireName(const std::string& name, const std::string& what, const RequestLimits& limits) {
+  if (name.empty()) refuse(what + " is missing");
+  if (name.size() > limits.name) refuse(what + " has more than " + std::to_string(limits.name) + " characters");
+  if (name != shownText(name)) refuse(what + " " + shownText(name) + " contains control characters");
+}
 
 bool RequestPermissions::isProtected(const std::string& body) const {
   return std::any_of(protected_bodies.begin(), protected_bodies.end(),
@@ -38,7 +44,7 @@ RequestPermissions permissionsOf(const std::vector<std::string>& kinds) {
   for (const auto& [name, kind] : kKinds) permissions.*kind = false;
   for (const std::string& wanted : kinds) {
     const auto known =
-        std::find_if(kKinds.begin(), kKinds.end(), [&](const Kind& kind) { return kind.first == wanted; });
+        std::find_if(kKinds.begin(), kKinds.end(), [&](const NamedKind& kind) { return kind.first == wanted; });
     if (known == kKinds.end()) refuse(wanted);
     permissions.*(known->second) = true;
   }

@@ -6,7 +6,7 @@
 
 #include "common/counted.h"
 #include "robot/joint_chain.h"
-#include "ros/world/changing_scene_start_up.h"
+#include "robot_monitor/changing_scene.h"
 #include "scene/name_pair.h"
 #include "sdf_ccd/cancel.h"
 
@@ -17,7 +17,7 @@ RuleIndex ChangingScene::ruleIndex() const {
 }
 
 /// Whether touch_links allow an object that has changed since start-up and another body to touch.
-bool ChangingScene::mayTouch(const Object& object, const BodyDescription& other) const {
+bool ChangingScene::mayTouch(const ChangingObject& object, const BodyDescription& other) const {
   const std::string& name = object.body.name;
   const auto known = objects_.find(other.name);
   const std::string& other_link = known == objects_.end() ? other.name : known->second.link;
@@ -72,7 +72,7 @@ bool ChangingScene::isNoGrasp(const PairDecision& pair) const {
 /// Adds the pairs that were left out at start-up, of bodies that have not changed since, unless a rule has them
 /// checked.
 void ChangingScene::keepAllowed(RuleIndex& rules, std::vector<PairDecision>& allowed) const {
-  for (const PairDecision& pair : start_up_->allowed) {
+  for (const PairDecision& pair : start_up_->scene.allowed) {
     if (hasChanged(pair.body_a) || hasChanged(pair.body_b)) continue;
     const RequestRule* rule = rules.last(pair.body_a, pair.body_b);
     if (!rule || rule->is_allowed) allowed.push_back(pair);
@@ -81,8 +81,8 @@ void ChangingScene::keepAllowed(RuleIndex& rules, std::vector<PairDecision>& all
 
 /// Adds a pair to the allowed ones, if a rule says so: the last one of requests, touch_links, or those of the
 /// parameters. @param a, b  null if the body is no object.
-void ChangingScene::leaveOut(const BodyDescription& body_a, const Object* a, const BodyDescription& body_b,
-                             const Object* b, RuleIndex& rules, std::vector<PairDecision>& allowed) const {
+void ChangingScene::leaveOut(const BodyDescription& body_a, const ChangingObject* a, const BodyDescription& body_b,
+                             const ChangingObject* b, RuleIndex& rules, std::vector<PairDecision>& allowed) const {
   if (body_a.is_world && body_b.is_world) return;
   const bool is_tile = !body_b.map.empty();
   const bool is_new = (a && !a->is_unchanged) || (b && !b->is_unchanged);
@@ -101,8 +101,8 @@ void ChangingScene::leaveOut(const BodyDescription& body_a, const Object* a, con
 
 /// @param bodies   without tiles.
 /// @param objects  per body; null if it is none.
-std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(const std::vector<BodyDescription>& bodies,
-                                                                    const std::vector<const Object*>& objects) const {
+std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(
+    const std::vector<BodyDescription>& bodies, const std::vector<const ChangingObject*>& objects) const {
   auto settled = std::make_shared<Settled>();
   RuleIndex rules = ruleIndex();
   keepAllowed(rules, settled->allowed);
@@ -115,21 +115,17 @@ std::shared_ptr<const ChangingScene::Settled> ChangingScene::settle(const std::v
   return settled;
 }
 
-void ChangingScene::setForces(const std::vector<std::string>& bodies, Forces forces) {
-  for (const std::string& body : bodies) forces_[body] = forces;
-}
-
 SceneDescription ChangingScene::description(const RequestLimits& limits) const {
   if (objects_.size() > limits.objects)
     throw std::length_error("more than " + std::to_string(limits.objects) + " objects");
   SceneDescription scene;
-  scene.visual_only = start_up_->visual_only;
+  scene.visual_only = start_up_->scene.visual_only;
   scene.has_live_map = !start_up_->tiles_begin.empty();
-  scene.bodies = start_up_->links;
-  std::vector<const Object*> objects(scene.bodies.size(), nullptr);  // per body
+  scene.bodies = start_up_->scene.bodies;
+  std::vector<const ChangingObject*> objects(scene.bodies.size(), nullptr);  // per body
   for (const auto& [name, object] : objects_) objects.push_back(&object);
   std::sort(objects.begin() + static_cast<std::ptrdiff_t>(scene.bodies.size()), objects.end(),
-            [](const Object* a, const Object* b) { return a->order < b->order; });
+            [](const ChangingObject* a, const ChangingObject* b) { return a->order < b->order; });
   for (std::size_t i = scene.bodies.size(); i < objects.size(); ++i) scene.bodies.push_back(objects[i]->body);
   for (BodyDescription& body : scene.bodies) {
     const auto known = body.forces == Forces::kAwaited ? forces_.find(body.name) : forces_.end();
@@ -151,7 +147,7 @@ SceneDescription ChangingScene::description(const RequestLimits& limits) const {
     for (std::size_t i = 0; i < objects.size(); ++i)
       leaveOut(scene.bodies[i], objects[i], scene.bodies[k], nullptr, rules, scene.allowed);
   }
-  setRigidRoots(*start_up_->robot, scene, start_up_->tf_prefix);
+  setRigidRoots(*start_up_->robot, scene, start_up_->link_prefix);
   return scene;
 }
 
@@ -172,7 +168,7 @@ std::string ChangingScene::weakened(const SceneDescription& description) const {
   std::string text;
   if (pairs > 0) text = "requests allow " + counted(pairs, "pair") + " to touch, for example " + first;
   std::vector<std::string> changed;
-  for (const std::string& name : start_up_->objects)
+  for (const std::string& name : first_objects_)
     if (hasChanged(name)) changed.push_back(name);
   if (!changed.empty()) {
     text += (text.empty() ? "requests have" : ", and have") + std::string(" removed, moved, replaced or attached ") +

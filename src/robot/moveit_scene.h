@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/parameters/world_object.h"
+#include "robot/world_shapes.h"
 #include "sdf_ccd/body.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "ros/parameters/request_permissions.h"
+#include "robot_monitor/request_permissions.h"
 #include "scene/pair_rules.h"
 
 namespace sdf_ccd {

@@ -3,7 +3,22 @@
 #include <string>
 #include <vector>
 
+#include "robot/world_shapes.h"
+
 namespace sdf_ccd {
+
+/// Limits of one request; more is refused.
+struct RequestLimits {
+  std::size_t name = 256;  ///< characters
+  std::size_t objects = kMaxObjects;
+  std::size_t shapes = 1000;        ///< of an object
+  std::size_t triangles = 2000000;  ///< of a request
+  std::size_t rules = 1000;         ///< made by requests, in total; and touch_links of an object
+  std::size_t pairs = 300000;       ///< of a scene
+};
+
+/// @throws std::invalid_argument if the name is empty, too long or contains control characters; `what` describes it.
+void requireName(const std::string& name, const std::string& what, const RequestLimits& limits);
 
 /// What clients may change while the monitor runs: the parameters requests/allow and requests/protected. Every client
 /// of the ROS master can call the services.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/shown_text.h"
-#include "ros/parameters/moveit_scene.h"
+#include "robot/moveit_scene.h"
 
 namespace sdf_ccd {
 namespace {

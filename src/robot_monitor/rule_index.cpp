@@ -1,4 +1,4 @@
-#include "ros/world/rule_index.h"
+#include "robot_monitor/rule_index.h"
 
 #include "sdf_ccd/cancel.h"
 
