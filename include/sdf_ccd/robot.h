@@ -17,11 +17,6 @@
 
 namespace sdf_ccd {
 
-using JointPositions = std::map<std::string, double>;  ///< by joint name [rad or m]
-
-/// By joint name: pose of the joint's child link in the joint's frame (the one that its `origin` gives).
-using JointPoses = std::map<std::string, Isometry3d>;
-
 /// The tree of links and joints of a URDF.
 class RobotModel {
  public:

@@ -10,10 +10,12 @@
 
 #include "cell_ways.h"
 #include "chord_frame.h"
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "deepest.h"
 #include "field/cell_reader.h"
-#include "sdf_ccd/cancel.h"
+#include "field/field_access.h"
+#include "query/smooth_pieces.h"
 #include "sdf_ccd/segments.h"
 #include "smooth_piece.h"
 
@@ -86,7 +88,7 @@ class Integrator {
     const int lane = pending_count_;
     pending_[lane] = {&hit, &depth, pointOf(hit)};
     const ChordPoint& point = pending_[lane].point;
-    if (!input_.field.grid() && !placeInLeaf(point, lane)) return false;
+    if (!FieldAccess::grid(input_.field) && !placeInLeaf(point, lane)) return false;
     for (int k = 0; k < 3; ++k) {
       ways_.start[k][lane] = point.start[k];
       ways_.step[k][lane] = point.step[k];
@@ -114,7 +116,7 @@ class Integrator {
   void addWays() {
     if (pending_count_ == 0) return;
     unsigned placed = (1U << pending_count_) - 1;
-    if (const SparseGrid* grid = input_.field.grid()) placed &= placeInGrid(*grid, ways_);
+    if (const SparseGrid* grid = FieldAccess::grid(input_.field)) placed &= placeInGrid(*grid, ways_);
     for (int lane = 0; lane < CellWays::kCount; ++lane)
       if ((placed >> lane & 1U) == 0) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
     CellDepths deepest;

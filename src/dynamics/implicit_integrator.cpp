@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "dynamics/collision_shape.h"
 #include "explicit_step.h"
 #include "velocity_system.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/lattice.h"
+#include "field/field_access.h"
 #include "field/lattice_grid.h"
 
 namespace sdf_ccd {
@@ -87,7 +88,7 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
     if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
   });
   data.samples = std::move(samples.samples);
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+  return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)));
 }
 
 }  // namespace sdf_ccd

@@ -8,6 +8,7 @@
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "field/corner_squares.h"
+#include "field/field_access.h"
 #include "field/lattice_grid.h"
 #include "field/uniform/uniform_shape.h"
 #include "field/voxel_field.h"
@@ -152,7 +153,7 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
     data.samples.insert(data.samples.end(), of_block.begin(), of_block.end());
     of_block = {};
   }
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
+  return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
 }
 
 }  // namespace sdf_ccd

@@ -6,6 +6,7 @@
 #include "motion/time_at.h"
 #include "pair_cycle.h"
 #include "pair_result.h"
+#include "query/smooth_pieces.h"
 #include "scene/pair_bound.h"
 #include "scene/union_depth.h"
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "contact_collector.h"
 #include "contact_refinement.h"
 #include "resting_answers.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -8,7 +8,7 @@
 #include "motion/two_body_motion.h"
 #include "scene/body_triangles.h"
 #include "scene/pair_bound.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 #include "surface/moving_boxes.h"
 #include "surface/plane_separation.h"
 #include "surface/separation.h"
@@ -182,8 +182,8 @@ void PairDistances::Impl::measure(std::size_t i, const CycleMotion& motion, cons
   found.body_a = result.body_a;
   found.body_b = result.body_b;
   found.is_with_map = !scene_->bodies[result.body_a].map.empty() || !scene_->bodies[result.body_b].map.empty();
-  found.is_constant =
-      !found.is_with_map && motion.X_WB[result.body_a].size() == 1 && motion.X_WB[result.body_b].size() == 1;
+  found.is_constant = !found.is_with_map && motion.X_WB[result.body_a].size() == 1 &&
+                      motion.X_WB[result.body_b].size() == 1;
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_within = findNearest(i, X_WA, X_WB, range, found);

@@ -1,7 +1,8 @@
-#include "sdf_ccd/velocity_scale.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "monitor/pair_traits.h"
+#include "sdf_ccd/distances.h"
 
 namespace sdf_ccd {
 namespace {

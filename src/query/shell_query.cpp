@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "prefetch.h"
+#include "query/swept_side.h"
 #include "representation_queries.h"
-#include "sdf_ccd/cancel.h"
+#include "shell/point_shell.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 

@@ -7,8 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "common/cancel_point.h"
 #include "robot/joint_sampler.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

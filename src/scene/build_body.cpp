@@ -10,6 +10,7 @@
 
 #include "scene/body_triangles.h"
 #include "scene/geometry_keys.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "nearest_point.h"
-#include "sdf_ccd/cancel.h"
 #include "surface_piece.h"
 #include "voronoi_piece.h"
 

@@ -9,6 +9,7 @@
 #include "common/number_text.h"
 #include "edge_sampling.h"
 #include "measure_shell.h"
+#include "shell/point_shell.h"
 #include "solid/solid_boundary.h"
 #include "surface_filler.h"
 #include "surface_piece.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "hull_depth.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/curved_field.h"
+#include "field/field_access.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field.h"
@@ -172,7 +173,7 @@ TEST(CellWays, PointsTogetherAreAsEachByItself) {
   FieldOptions adaptive;
   adaptive.max_error = 2e-3;
   const std::vector<DistanceField> fields = {curvedField(), buildField(boxMesh({0.3, 0.3, 0.3}), adaptive)};
-  ASSERT_TRUE(fields[0].grid() && fields[1].adaptive());
+  ASSERT_TRUE(FieldAccess::grid(fields[0]) && FieldAccess::adaptive(fields[1]));
   ContactOptions options = perArea();
   options.damping = 3.0;
   for (const DistanceField& field : fields) {
@@ -191,14 +192,14 @@ TEST(CellWays, PointsTogetherAreAsEachByItself) {
       for (std::size_t i = 0; i < expected.depths.size(); ++i) {
         const HitDepth &one = together.depths[i], &other = expected.depths[i];
         // In an adaptive field, rounding decides on which side of a jump a point on a face is.
-        const double jump = field.adaptive() ? 2.0 * field.errorBound() : 0.0;
+        const double jump = FieldAccess::adaptive(field) ? 2.0 * field.errorBound() : 0.0;
         EXPECT_NEAR(one.depth, other.depth, 1e-14 + jump);
         EXPECT_LE(std::abs(one.depth - other.depth), one.error + other.error);
         if (one.time != other.time) continue;
         EXPECT_LE((one.p_C - other.p_C).norm(), 1e-12);
       }
       const double size = expected.on_shell_body.force.norm();
-      const double share = field.adaptive() ? 1e-2 : 1e-9;
+      const double share = FieldAccess::adaptive(field) ? 1e-2 : 1e-9;
       EXPECT_LE((together.on_shell_body.force - expected.on_shell_body.force).norm(), share * size);
       EXPECT_LE((together.on_shell_body.torque - expected.on_shell_body.torque).norm(), share * size);
     }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "dynamics/collision_shape.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/simulation.h"
+#include "shell/point_shell.h"
 
 /// Rigid bodies for tests and studies.
 namespace sdf_ccd::test {

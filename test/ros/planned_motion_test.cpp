@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "motion/motion_sampling.h"
 #include "oracle/failure.h"
+#include "robot/planned_motion.h"
 #include "ros/messages/conversions.h"
 
 namespace sdf_ccd::planned_motion_test {

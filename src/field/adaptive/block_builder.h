@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "cell_fit.h"
+#include "common/cancel_point.h"
 #include "common/lattice.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
 #include "field/grid_cell.h"
 #include "field/near_octants.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

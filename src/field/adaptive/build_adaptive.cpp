@@ -9,6 +9,7 @@
 #include "adaptive_shape.h"
 #include "block_builder.h"
 #include "built_cells.h"
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/planned_motion.h"
 #include "ros/tf/robot_frames.h"
 #include "sdf_ccd/scene.h"
 #include "sdf_ccd/trajectory.h"

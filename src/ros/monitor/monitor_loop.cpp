@@ -122,7 +122,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   change.tracker->continueFrom(*tracker_, difference.bodiesBefore(), change.pairs_before);
   tracker_.swap(change.tracker);
   rigid_guard_.swap(change.rigid_guard);
-  contacts_.adopt(change.contacts);
+  contacts_.adopt(*change.contacts);
   change.distances->take(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);

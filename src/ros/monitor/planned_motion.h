@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
 #include "ros/monitor/current_poses.h"
 #include "sdf_ccd/QueryMotion.h"
 #include "sdf_ccd/scene.h"

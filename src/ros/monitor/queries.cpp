@@ -12,17 +12,19 @@
 
 #include <fmt/format.h>
 
+#include "common/cancel_point.h"
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"
+#include "monitor/nearest_body.h"
 #include "monitor/pair_times.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/low_priority.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/cancel.h"
-#include "sdf_ccd/check_motion.h"
 
 namespace sdf_ccd {
 namespace {
@@ -347,7 +349,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     const Piece piece(*this, spent);
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
-      const CancelScope scope(cancel);  // this may run in another thread
+      const TaskCancelScope scope(cancel);  // this may run in another thread
       PlannedScene now = from_now;
       now.sampling.tolerance = tolerance;
       try {

@@ -8,6 +8,10 @@
 
 #include <ros/publisher.h>
 
+#include "monitor/shared_memory.h"
+#include "monitor/nearest_body.h"
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
 #include "ros/monitor/planned_motion.h"
 #include "ros/monitor/work_arena.h"
 #include "ros/monitor/work_turns.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/refuse.h"
 #include "common/shown_text.h"
 #include "common/text_limits.h"
@@ -12,7 +13,6 @@
 #include "ros/world/changing_scene_start_up.h"
 #include "ros/world/world_bodies.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {
