@@ -23,6 +23,7 @@ struct CycleRecord {
   std::chrono::nanoseconds origin{0};  ///< the cycle's time 0, since the clock's epoch
   /// Per body: the longest time between two recorded poses, summed over the transforms of its chain [s]; null: unknown.
   const std::vector<double>* gaps = nullptr;
+  bool single_pose_is_fixed = false;  ///< bodies with a single pose never move: they are not only at rest in this cycle
 };
 
 /// Distance of two bodies at one time: the last time at which both are known in the cycle.
@@ -30,7 +31,7 @@ struct PairDistance {
   int pair = -1;  ///< in Scene::pairs
   int body_a = -1, body_b = -1;
   bool is_with_map = false;  ///< one body is a tile of a map
-  /// No moving transform is in the chain of either body, and neither is a tile, which the next map may change.
+  /// Neither body ever moves (CycleRecord::single_pose_is_fixed), nor is a tile, which the next map may change.
   bool is_constant = false;
   double time = 0.0;      ///< [s] from t₀ of the last cycle; negative for a delayed pair
   double distance = 0.0;  ///< [m]; 0 if the bodies touch at that time

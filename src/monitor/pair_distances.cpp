@@ -182,7 +182,7 @@ void PairDistances::Impl::measure(std::size_t i, const CycleMotion& motion, cons
   found.body_a = result.body_a;
   found.body_b = result.body_b;
   found.is_with_map = !scene_->bodies[result.body_a].map.empty() || !scene_->bodies[result.body_b].map.empty();
-  found.is_constant = !found.is_with_map && motion.X_WB[result.body_a].size() == 1 &&
+  found.is_constant = record.single_pose_is_fixed && !found.is_with_map && motion.X_WB[result.body_a].size() == 1 &&
                       motion.X_WB[result.body_b].size() == 1;
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);

@@ -237,7 +237,7 @@ std::string MonitorLoop::movingFixedFrame() const {
 
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
   return distances_->update(cycle_.motion, *result_, range,
-                            {std::chrono::nanoseconds(cycle_.origin.toNSec()), &cycle_.gaps});
+                            {std::chrono::nanoseconds(cycle_.origin.toNSec()), &cycle_.gaps, true});
 }
 
 void MonitorLoop::reset() {
