@@ -215,6 +215,9 @@ void ChangingScene::erase(const SceneChange& change) {
 void ChangingScene::append(const SceneChange& change, ChangeSources& sources) {
   Object& object = find(change.id);
   requireNoPose(change, "APPEND");
+  if (const std::string frame = frameOf(change, object.body.frame); frame != object.body.frame)
+    refuse("APPEND leaves " + shownText(change.id) + " in the frame " + object.body.frame +
+           ", and its shapes are in the object's own: give no frame, instead of " + frame);
   const bool holds_map = std::any_of(object.body.geometry.begin(), object.body.geometry.end(),
                                      [](const GeometryDescription& part) { return part.watertight_voxels; });
   if (holds_map || !change.octomap_file.empty())
