@@ -73,7 +73,7 @@ class PairDistances {
   /// Continues from the distances of another scene between two cycles, and leaves those empty: a nearby pair that both
   /// scenes have stays listed until it is measured again. Only delayed pairs need it.
   /// @param pairs_now  per pair of the other scene: its index in this one; −1 if it has none.
-  void take(PairDistances& before, const std::vector<int>& pairs_now);
+  void continueFrom(PairDistances& before, const std::vector<int>& pairs_now);
 
  private:
   struct Impl;

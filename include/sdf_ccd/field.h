@@ -135,7 +135,7 @@ struct FieldOptions {
   /// |interpolated − true distance| in the band [m]; cells of several sizes. If the smallest ones do not suffice, the
   /// field has a larger DistanceField::errorBound().
   std::optional<double> max_error;
-  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
+  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are used
   /// Larger fields are refused, with the cell size or the error that would fit. Building takes up to about twice as
   /// much, and a few megabytes per thread.
   std::size_t max_bytes = std::size_t{4} << 30;

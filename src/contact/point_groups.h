@@ -25,7 +25,7 @@ struct GroupedShell {
   const std::vector<NodeSum>& sums;
 };
 
-/// Takes shell points that are deep inside a field along a whole chord together, so that the cost of a deep contact
+/// Joins shell points that are deep inside a field along a whole chord, so that the cost of a deep contact
 /// does not grow with the number of points.
 ///
 /// Points of a node are a group if the node's radius is at most a quarter of the depth of its centre, which it is all

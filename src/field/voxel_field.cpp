@@ -85,7 +85,7 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
   data.slots.assign(shape.brickCount(), SparseGrid::kFar);
   BrickSamples samples;
   forEachPoint(shape.bricks, [&](const Vector3i& b) {
-    if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
+    if (samples.append(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
   });
   data.samples = std::move(samples.samples);
   return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)));

@@ -75,7 +75,7 @@ class MapGrid {
     distances.compute(n_, low, (high - low).array() + 1, first_voxel, last_voxel,
                       [&](const Vector3i& v) { return solid_.isIn(v.x(), v.y(), v.z()); });
     for (const Vector3i& b : near)
-      if (samples.take(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
+      if (samples.append(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
   }
 
  private:

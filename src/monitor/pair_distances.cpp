@@ -43,7 +43,7 @@ struct PairDistances::Impl {
   const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range,
                                           const CycleRecord& record);
   void forget();
-  void take(Impl& before, const std::vector<int>& pairs_now);
+  void continueFrom(Impl& before, const std::vector<int>& pairs_now);
 
   static constexpr double kNotMeasured = -1.0;  // below any range
 
@@ -113,8 +113,8 @@ void PairDistances::forget() {
   impl_->forget();
 }
 
-void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
-  impl_->take(*before.impl_, pairs_now);
+void PairDistances::continueFrom(PairDistances& before, const std::vector<int>& pairs_now) {
+  impl_->continueFrom(*before.impl_, pairs_now);
 }
 
 void PairDistances::Impl::forget() {
@@ -127,7 +127,7 @@ void PairDistances::Impl::forget() {
   is_empty_ = true;
 }
 
-void PairDistances::Impl::take(Impl& before, const std::vector<int>& pairs_now) {
+void PairDistances::Impl::continueFrom(Impl& before, const std::vector<int>& pairs_now) {
   near_.swap(before.near_);
   const auto isGone = [&](const PairDistance& near) { return pairs_now[near.pair] < 0; };
   near_.erase(std::remove_if(near_.begin(), near_.end(), isGone), near_.end());

@@ -138,7 +138,7 @@ SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& request
   filler.fillEdges(edges, sampling.radius);
   filler.throwDarts();
   filler.fillGaps();
-  SampledPoints shell = filler.take();
+  SampledPoints shell = filler.moveOut();
   const ShellMeasures measures = measureShell(surface, shell, options.spacing);
   shell.areas.assign(measures.areas.begin(), measures.areas.end());
   // Both are upper bounds: the filler guarantees the spacing, and the radius is measured.

@@ -29,7 +29,7 @@ class SurfaceFiller {
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
   void fillGaps();
 
-  SampledPoints take() { return std::move(shell_); }
+  SampledPoints moveOut() { return std::move(shell_); }
 
  private:
   [[noreturn]] void refuse() const;

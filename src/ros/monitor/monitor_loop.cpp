@@ -123,7 +123,7 @@ void MonitorLoop::adopt(LoopChange& change) {
   tracker_.swap(change.tracker);
   rigid_guard_.swap(change.rigid_guard);
   contacts_.adopt(*change.contacts);
-  change.distances->take(*distances_, difference.pairsNow());
+  change.distances->continueFrom(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);
   traits_.swap(change.traits);
