@@ -65,7 +65,7 @@ TEST_F(FieldFile, KeepsOpenings) {
     EXPECT_EQ(FieldAccess::openings(loaded)->mesh().triangles, FieldAccess::openings(field)->mesh().triangles);
     EXPECT_EQ(FieldAccess::openings(loaded)->reach(), FieldAccess::openings(field)->reach());
     saveField(buildField(mesh_, options), path("closed.field"));
-    EXPECT_FALSE(loadField(path("closed.field")).openings());
+    EXPECT_FALSE(loadField(path("closed.field")).hasOpenings());
   }
 }
 
@@ -81,7 +81,7 @@ TEST_F(FieldFile, BadOpeningsAreRefused) {
       return loadField(path("b.field"));
     };
     const auto put = [](auto value) { return [value](std::string& bytes) { test::put(value, 0, bytes); }; };
-    EXPECT_TRUE(loadWith(0, put(0.3)).openings());
+    EXPECT_TRUE(loadWith(0, put(0.3)).hasOpenings());
     for (const double x : {0.4, -1e300, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(0, put(x)), std::runtime_error);
     for (const std::int32_t i : {-1, 6, 1 << 30}) EXPECT_THROW(loadWith(1, put(i)), std::runtime_error) << i;
     for (const double x : {-1e-9, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(2, put(x)), std::runtime_error) << x;

@@ -348,7 +348,7 @@ TEST_F(PairDistancesTest, WhatIsDelayedAndWasNotMeasuredIsUnknown) {
   std::vector<int> now(scene_->pairs.size());
   for (std::size_t p = 0; p < now.size(); ++p) now[p] = static_cast<int>(p);
   PairDistances same(scene_), other(scene_);
-  same.take(distances_, now);
+  same.continueFrom(distances_, now);
   result_ = monitor_.run(waits, {true, 3});
   same.update(waits, result_, kRange, {});
   EXPECT_FALSE(same.hasUnknown());

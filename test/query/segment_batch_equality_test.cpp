@@ -197,7 +197,7 @@ TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
   ASSERT_EQ(mprotect(memory + pages, page, PROT_NONE), 0);
   std::memcpy(memory + pages - bytes, grid.samples().data, bytes);
   const View<std::int16_t> samples{reinterpret_cast<const std::int16_t*>(memory + pages - bytes), grid.samples().size};
-  const DistanceField at_end(std::make_shared<const SparseGrid>(
+  const DistanceField at_end = FieldAccess::make(std::make_shared<const SparseGrid>(
       grid.shape(), SparseGrid::Arrays{grid.corners(), grid.words(), samples}, grid.errorBound(), nullptr));
   EXPECT_GT(compare(at_end, randomSegments(field, 30000), 0.0).hits, 3000);
   // The last brick's last corner, from all sides.
