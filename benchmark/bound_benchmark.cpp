@@ -12,9 +12,11 @@
 #include "bound/verdicts.h"
 #include "contact/penalty.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "query/least_distance.h"
 #include "sdf_ccd/segments.h"
+#include "shell/point_shell.h"
 #include "study_fields.h"
 
 namespace sdf_ccd::benchmark {
@@ -133,8 +135,8 @@ class FieldStudy {
 
 /// Cell size [m]; in an adaptive field, the median over random points of the surface.
 double cellAtSurface(const DistanceField& field, const ExactSurface& mesh) {
-  if (const SparseGrid* grid = field.grid()) return grid->shape().cell;
-  const AdaptiveGrid& grid = *field.adaptive();
+  if (const SparseGrid* grid = FieldAccess::grid(field)) return grid->shape().cell;
+  const AdaptiveGrid& grid = *FieldAccess::adaptive(field);
   const AdaptiveShape& shape = grid.shape();
   Random random(7);
   const precision::SurfaceSampler surface(mesh.mesh());

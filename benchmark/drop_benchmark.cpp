@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/collision_shape.h"
 #include "mesh/generated_mesh.h"
 #include "results.h"
 #include "sdf_ccd/simulation.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 #include "study.h"
 
@@ -31,7 +33,7 @@ TriangleMesh placed(const TriangleMesh& mesh) {
   return transformed(small, Isometry3d(Eigen::Translation3d(-massProperties(small, 1.0).center)));
 }
 
-CollisionShape shapeOf(const Drop& drop, const TriangleMesh& mesh) {
+std::shared_ptr<const CollisionShape> shapeOf(const Drop& drop, const TriangleMesh& mesh) {
   FieldOptions field;
   field.cells = 128;
   ShellOptions shell;
@@ -73,7 +75,7 @@ Simulation simulation(const TriangleMesh& mesh, std::shared_ptr<const CollisionS
 /// Runs both simulations step by step in turn. @throws std::runtime_error if their numbers of contacts differ.
 void run(const Drop& drop, int most) {
   const TriangleMesh mesh = placed(drop.mesh);
-  const auto tree = std::make_shared<const CollisionShape>(shapeOf(drop, mesh));
+  const auto tree = shapeOf(drop, mesh);
   const auto linear = std::make_shared<const CollisionShape>(withoutTree(*tree));
   Simulation simulations[] = {simulation(mesh, linear), simulation(mesh, tree)};
   double seconds[] = {0.0, 0.0};

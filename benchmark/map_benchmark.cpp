@@ -20,6 +20,7 @@
 #include "motion/screw_motion.h"
 #include "results.h"
 #include "sdf_ccd/mesh.h"
+#include "shell/point_shell.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "embree_scene.h"
+#include "field/build_field.h"
 #include "results.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/mesh.h"

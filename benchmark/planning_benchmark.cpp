@@ -10,10 +10,12 @@
 #include "monitor/box_world.h"
 #include "monitor/fcl_scene.h"
 #include "monitor/monitor_system.h"
+#include "motion/motion_sampling.h"
 #include "precision/error_summary.h"
 #include "results.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "sdf_ccd/body.h"
-#include "sdf_ccd/check_motion.h"
 #include "study.h"
 
 namespace sdf_ccd::benchmark {

@@ -12,6 +12,7 @@
 #include "precision/random_inputs.h"
 #include "segment_cases.h"
 #include "segment_system.h"
+#include "shell/point_shell.h"
 #include "study_fields.h"
 
 namespace sdf_ccd::benchmark {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "motion_cases.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 #include "study_fields.h"
 

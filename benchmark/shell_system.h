@@ -7,6 +7,7 @@
 
 #include "query/shell_query.h"
 #include "sdf_ccd/mesh.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::benchmark {
 

@@ -1,7 +1,6 @@
 // Simulates a box that falls on the ground and comes to rest.
 #include <cmath>
 #include <cstdio>
-#include <memory>
 
 #include <sdf_ccd/simulation.h>
 
@@ -10,7 +9,7 @@ int main() {
   RigidBody ground;
   ground.name = "ground";
   ground.fixed = true;
-  ground.shape = std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), {}));
+  ground.shape = makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), {});
 
   const Primitive cube = Box::fromSize({0.1, 0.1, 0.1});  // [m]
   const MassProperties mass = massProperties(cube, 1000.0);
@@ -20,7 +19,7 @@ int main() {
   box.name = "box";
   box.mass = mass.mass;
   box.inertia = mass.inertia;
-  box.shape = std::make_shared<CollisionShape>(makeShape(cube, points));
+  box.shape = makeShape(cube, points);
 
   RigidWorld world;
   world.bodies = {ground, box};

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "oracle/file_versions.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 #include "valid_file.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

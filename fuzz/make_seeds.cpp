@@ -16,7 +16,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 #include "valid_file.h"
 

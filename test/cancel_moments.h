@@ -8,9 +8,9 @@
 #include <functional>
 #include <thread>
 
+#include "common/cancel_point.h"
 #include "common/time_limit.h"
 #include "oracle/busy_machine.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd::test {
 

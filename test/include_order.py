@@ -10,10 +10,9 @@ import sys
 
 # The folder from which on each public header may be included.
 HEADERS = {'types': 'common', 'cancel': 'common', 'mesh': 'mesh', 'primitive': 'mesh', 'field': 'field',
-           'shell': 'shell', 'motion': 'motion', 'segments': 'query', 'result': 'query', 'contact': 'contact',
-           'body': 'scene', 'robot': 'robot', 'trajectory': 'robot', 'scene': 'scene', 'monitor': 'monitor',
-           'distances': 'monitor', 'contacts': 'monitor', 'velocity_scale': 'monitor',
-           'check_motion': 'robot_monitor', 'robot_scene': 'robot_monitor', 'simulation': 'dynamics'}
+           'trajectory': 'motion', 'segments': 'query', 'result': 'query', 'body': 'scene', 'robot': 'robot',
+           'scene': 'scene', 'monitor': 'monitor', 'distances': 'monitor', 'robot_scene': 'robot_monitor',
+           'simulation': 'dynamics'}
 ROS = ['tf', 'messages', 'parameters', 'world', 'monitor', 'bag']  # the folders of src/ros
 
 

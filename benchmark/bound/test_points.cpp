@@ -1,5 +1,6 @@
 #include "test_points.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 
 #include <cmath>
@@ -40,11 +41,13 @@ Vector3d medialPoint(const ExactSurface& mesh, int triangle, const Vector3d& on_
 
 /// Faces between cells lie at multiples of this from the grid's origin [m].
 double cellOf(const DistanceField& field) {
-  return field.adaptive() ? field.adaptive()->shape().unit() : field.grid()->shape().cell;
+  return FieldAccess::adaptive(field) ? FieldAccess::adaptive(field)->shape().unit()
+                                      : FieldAccess::grid(field)->shape().cell;
 }
 
 Vector3d originOf(const DistanceField& field) {
-  return field.adaptive() ? field.adaptive()->shape().origin : field.grid()->shape().origin;
+  return FieldAccess::adaptive(field) ? FieldAccess::adaptive(field)->shape().origin
+                                      : FieldAccess::grid(field)->shape().origin;
 }
 
 /// p with one coordinate moved to the nearest face between cells; in an adaptive field, to the lower face of its leaf.
@@ -53,7 +56,7 @@ Vector3d onFace(const DistanceField& field, const Vector3d& p, int axis) {
   const Vector3d origin = originOf(field);
   Vector3d on = p;
   double line = std::round((p[axis] - origin[axis]) / cell);
-  if (const AdaptiveGrid* grid = field.adaptive(); grid && field.box().contains(p)) {
+  if (const AdaptiveGrid* grid = FieldAccess::adaptive(field); grid && field.box().contains(p)) {
     const Vector3i last = grid->shape().units().array() - 1;
     const Vector3i unit = ((p - origin) / cell).array().floor().max(0.0).matrix().cast<int>().cwiseMin(last);
     line = grid->block(unit).low[axis];

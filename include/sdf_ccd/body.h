@@ -14,7 +14,6 @@
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/primitive.h"
 #include "sdf_ccd/result.h"
-#include "sdf_ccd/shell.h"
 #include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
@@ -130,6 +129,8 @@ struct SceneDescription {
 struct BodySurface;
 struct BodyTriangles;
 class DepthSolid;
+struct PointShell;
+struct SphereTree;
 class TriangleTree;
 
 /// One collision element with its field.
@@ -150,12 +151,14 @@ struct BodyHalfSpace {
 
 /// A body that is ready to be checked.
 struct Body : BodyPlace {
+  Body();  ///< without geometry
+
   std::string warning;          ///< about the inside of its meshes (see warningOf()); empty if there is none
   std::vector<BodyPart> parts;  ///< empty if no pair needs its field
   /// Points of the surface, frame B, and their tree; none if no pair needs them, or deep inside a sibling part.
   ///@{
-  std::shared_ptr<const PointShell> shell = std::make_shared<const PointShell>();
-  std::shared_ptr<const SphereTree> tree = std::make_shared<const SphereTree>();
+  std::shared_ptr<const PointShell> shell;
+  std::shared_ptr<const SphereTree> tree;
   ///@}
   std::shared_ptr<const BodySurface> surface;      ///< for voxels of a live map that are those of the body; else null
   std::shared_ptr<const BodyTriangles> triangles;  ///< of its bounded elements, which decide verdicts
@@ -189,10 +192,12 @@ enum class PartState {
 /// What is known of a part.
 struct PartReport {
   PartState state = PartState::kNotNeeded;
-  std::string text;  ///< of a field that is ready "cached", "built 1.2 s", "exact" or "shared"; else why it is not ready
+  std::string
+      text;  ///< of a field that is ready "cached", "built 1.2 s", "exact" or "shared"; else why it is not ready
 };
 
-/// The parts of a body: verdicts need its surface only; fields and shells find forces, and times and depths of contacts.
+/// The parts of a body: verdicts need its surface only; fields and shells find forces, and times and depths of
+/// contacts.
 struct PartReports {
   PartReport surface, field, shell;
 };
@@ -222,31 +227,6 @@ class BodyList {
   /// A body as lists share it.
   using Shared = std::shared_ptr<const Body>;
 
-  /// A forward iterator over bodies, not over pointers to them.
-  class const_iterator {
-   public:
-    /// As of any forward iterator.
-    ///@{
-    using iterator_category = std::forward_iterator_tag;
-    using value_type = Body;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const Body*;
-    using reference = const Body&;
-
-    const_iterator() = default;
-    explicit const_iterator(std::vector<Shared>::const_iterator at) : at_(at) {}
-    const Body& operator*() const { return **at_; }
-    const Body* operator->() const { return at_->get(); }
-    const_iterator& operator++() { return ++at_, *this; }
-    const_iterator operator++(int) { return const_iterator(at_++); }
-    bool operator==(const const_iterator& other) const { return at_ == other.at_; }
-    bool operator!=(const const_iterator& other) const { return at_ != other.at_; }
-    ///@}
-
-   private:
-    std::vector<Shared>::const_iterator at_;
-  };
-
   BodyList() = default;
   /// Of these bodies, which no other list shares yet.
   explicit BodyList(std::vector<Body> bodies) {
@@ -260,8 +240,8 @@ class BodyList {
   const Body& operator[](std::size_t i) const { return *bodies_[i]; }
   const Body& front() const { return *bodies_.front(); }
   const Body& back() const { return *bodies_.back(); }
-  const_iterator begin() const { return const_iterator(bodies_.begin()); }
-  const_iterator end() const { return const_iterator(bodies_.end()); }
+  auto begin() const { return Iterator{bodies_.data()}; }
+  auto end() const { return Iterator{bodies_.data() + bodies_.size()}; }
   ///@}
 
   /// The body itself, to be put into another list.
@@ -274,6 +254,23 @@ class BodyList {
   ///@}
 
  private:
+  /// Over bodies, not over pointers to them.
+  struct Iterator {
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = Body;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const Body*;
+    using reference = const Body&;
+
+    const Body& operator*() const { return **at; }
+    const Body* operator->() const { return at->get(); }
+    Iterator& operator++() { return ++at, *this; }
+    bool operator==(const Iterator& other) const { return at == other.at; }
+    bool operator!=(const Iterator& other) const { return at != other.at; }
+
+    const Shared* at;
+  };
+
   std::vector<Shared> bodies_;
 };
 

@@ -9,41 +9,6 @@ namespace sdf_ccd {
 /// do not catch it.
 struct Cancelled {};
 
-/// The conditions that end a thread's work: a flag, null if there is none, and a time.
-struct CancelRequest {
-  /// Of deadlines: never set back.
-  using Clock = std::chrono::steady_clock;
-
-  const std::atomic<bool>* requested = nullptr;
-  Clock::time_point deadline = Clock::time_point::max();
-};
-
-/// The cancel request of the thread that constructs it; tasks on other threads may use it, too. Long work constructs
-/// one and checks it every few milliseconds. A check reads a variable and, if there is a deadline, the clock (25 ns),
-/// so loops of cheap steps check only every so many steps (CancelTicks).
-class CancelPoint {
- public:
-  CancelPoint();
-
-  /// Whether the work is to end: the flag is set, or the deadline has passed.
-  bool requested() const {
-    if (request_.requested && request_.requested->load(std::memory_order_relaxed)) return true;
-    constexpr auto kNever = CancelRequest::Clock::time_point::max();
-    return request_.deadline != kNever && CancelRequest::Clock::now() >= request_.deadline;
-  }
-
-  /// @throws Cancelled if it has been requested.
-  void check() const {
-    if (requested()) throw Cancelled();
-  }
-
-  /// What ends this work.
-  const CancelRequest& request() const { return request_; }
-
- private:
-  CancelRequest request_;
-};
-
 /// While it exists, work on this thread ends with Cancelled soon after the flag has been set, by any thread, or after
 /// the deadline.
 ///
@@ -51,39 +16,20 @@ class CancelPoint {
 /// the inner flag replaces the outer one, and the earlier deadline counts.
 class CancelScope {
  public:
+  /// Of deadlines: never set back.
+  using Clock = std::chrono::steady_clock;
+
   /// @param requested  must outlive the scope.
   explicit CancelScope(const std::atomic<bool>& requested);
   /// The flag of an outer scope stays.
-  explicit CancelScope(CancelRequest::Clock::time_point deadline);
-
-  /// For a task on another thread: exactly what cancels the work at `point` cancels this task.
-  explicit CancelScope(const CancelPoint& point);
-
+  explicit CancelScope(Clock::time_point deadline);
   ~CancelScope();
   CancelScope(const CancelScope&) = delete;
   CancelScope& operator=(const CancelScope&) = delete;
 
  private:
-  CancelRequest outer_;
-};
-
-/// Checks this thread's request. @throws Cancelled.
-inline void checkCancelled() {
-  CancelPoint().check();
-}
-
-/// A CancelPoint for loops whose steps take less than a microsecond: checks it once every `Period` steps.
-template <unsigned Period = 64>
-class CancelTicks {
- public:
-  /// @throws Cancelled if it has been requested.
-  void check() {
-    if (++steps_ % Period == 0) point_.check();
-  }
-
- private:
-  CancelPoint point_;
-  unsigned steps_ = 0;
+  const std::atomic<bool>* outer_flag_;
+  Clock::time_point outer_deadline_;
 };
 
 }  // namespace sdf_ccd

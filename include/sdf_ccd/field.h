@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -40,7 +41,7 @@ struct DistanceBounds {
 ///
 /// A value type: copies share the samples, which never change.
 /// For a mesh with openings, the surface includes caps that close it, which the field stores: near the caps, and
-/// inside, it describes a solid that the mesh does not bound on all sides (see openings()).
+/// inside, it describes a solid that the mesh does not bound on all sides (see hasOpenings()).
 /// Sampled fields hold samples of the true distance in a band around the surface and bounds of it everywhere else,
 /// also outside their box; "no data" is never zero.
 class DistanceField {
@@ -48,16 +49,6 @@ class DistanceField {
   /// The exact distance to a primitive.
   /// @throws std::invalid_argument if it is not valid.
   explicit DistanceField(const Primitive& primitive);
-
-  /// @param openings  null where there are none.
-  /// @param moved     see moved().
-  /// @throws std::invalid_argument if there is no grid, or `moved` is not a distance.
-  ///@{
-  explicit DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
-                         double moved = 0.0);
-  explicit DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings = {},
-                         double moved = 0.0);
-  ///@}
 
   /// Value, bound on its error and gradient at a finite point p_F [m], anywhere. The bound is local: that of the
   /// point's leaf, or of the samples around the point (see src/field/uniform/sample_bracket.h).
@@ -82,10 +73,10 @@ class DistanceField {
   /// were joined, cracks closed, or vertices moved to the lattice of their voxels. All error bounds include it.
   double moved() const { return moved_; }
 
-  /// The caps: parts of the surface that are not on the mesh. Null if the whole surface is on the mesh, within moved();
-  /// then the sign is certain. (Caps of cracks, no point of which is farther from the mesh than a quarter of
-  /// errorBound(), are in moved() instead.)
-  const OpeningCaps* openings() const { return openings_.get(); }
+  /// Whether parts of the surface are not on the mesh: caps of its openings. If not, the whole surface is on the mesh,
+  /// within moved(), and the sign is certain. (Caps of cracks, no point of which is farther from the mesh than a
+  /// quarter of errorBound(), are in moved() instead.)
+  bool hasOpenings() const { return openings_ != nullptr; }
 
   /// Lower bound of the distance to the parts of the surface that are not on the mesh [m]; infinity if there are none.
   double openingDistance(const Vector3d& p_F) const;
@@ -107,14 +98,14 @@ class DistanceField {
   /// Box of the grid [m], outside of which only bounds are known; for a primitive, the box of its surface.
   AlignedBox3d box() const;
 
-  /// The representation, for queries: exactly one of the three is not null.
-  ///@{
+  /// The primitive whose exact distance it is; null for a sampled field.
   const Primitive* primitive() const;
-  const SparseGrid* grid() const;
-  const AdaptiveGrid* adaptive() const;
-  ///@}
 
  private:
+  friend struct FieldAccess;
+  DistanceField(std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> grid,
+                const AlignedBox3d& surface_box, std::shared_ptr<const OpeningCaps> openings, double moved);
+
   std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> representation_;
   AlignedBox3d surface_box_;
   std::shared_ptr<const OpeningCaps> openings_;
@@ -144,38 +135,42 @@ struct FieldOptions {
   /// |interpolated − true distance| in the band [m]; cells of several sizes. If the smallest ones do not suffice, the
   /// field has a larger DistanceField::errorBound().
   std::optional<double> max_error;
-  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are taken
+  double band = 0.0;  ///< accurate where |φ| ≤ band [m]; at least two cells, or twice max_error, are used
   /// Larger fields are refused, with the cell size or the error that would fit. Building takes up to about twice as
   /// much, and a few megabytes per thread.
   std::size_t max_bytes = std::size_t{4} << 30;
 };
 
+/// How densely a surface is sampled.
+struct ShellOptions {
+  double spacing = 0.01;  ///< no location of the surface farther than this from a point, but for its rounding [m]
+  /// If less than the spacing, edges are sampled separately: if two surfaces sampled like this touch, a point of one is
+  /// no farther than this from the other, but for its rounding (see contact_gap.h) [m]. 0: edges are not sampled
+  /// separately.
+  double edge_gap = 0.0;
+  bool has_siblings = false;  ///< the surface is one of several of a body, whose edges may be sampled separately
+  /// Mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all. For a mesh whose parts overlap, it
+  /// is at least a tenth of the spacing (or edge gap).
+  double vertex_spacing = 0.0;
+  std::uint64_t seed = 1;               ///< equal seeds give equal shells
+  std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
+};
+
 /// Throws std::invalid_argument, with the value, for options that no field can have.
 void validate(const FieldOptions& options);
 
-/// The options with a resolution. @throws as validate().
-FieldOptions withResolution(FieldOptions options);
-
 /// Called from one thread at a time with the share done, from 0 to 1.
 using Progress = std::function<void(double)>;
-
-class ClosedSolid;
-class Solid;
 
 /// Samples the signed distance to the boundary of a mesh's solid (paper §3, Table 1): exact closest points on the
 /// boundary, signs from the winding number. Where parts overlap, the depth is that in their union (see Solid).
 ///
 /// Uses all threads of the caller's TBB arena; the result does not depend on their number.
 /// A mesh that is not closed is closed by caps (see findOpenings()): the field is that of the closed solid, and records
-/// where its surface is a cap (see DistanceField::openings()).
+/// where its surface is a cap (see DistanceField::hasOpenings()).
 /// @param mesh  frame F, oriented (see orientOutward()).
 /// @throws std::invalid_argument for a mesh or options that are not valid.
 /// @throws std::length_error if the field would exceed options.max_bytes.
 DistanceField buildField(const TriangleMesh& mesh, const FieldOptions& options, const Progress& progress = {});
-
-/// The same for an existing solid.
-DistanceField buildField(const Solid& solid, const FieldOptions& options, const Progress& progress = {});
-/// The same for a solid whose openings are closed, with its caps.
-DistanceField buildField(const ClosedSolid& closed, const FieldOptions& options, const Progress& progress = {});
 
 }  // namespace sdf_ccd

@@ -1,17 +1,18 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sdf_ccd/body.h"
-#include "sdf_ccd/contact.h"
-#include "sdf_ccd/motion.h"
 #include "sdf_ccd/result.h"
 #include "sdf_ccd/scene.h"
 #include "sdf_ccd/segments.h"
-#include "sdf_ccd/types.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 
@@ -54,81 +55,6 @@ struct CycleRequest {
   bool wantsPoints() const { return wrenches || max_points > 0; }
 };
 
-/// One contact of one shell point.
-struct ContactPoint {
-  double enter = 0.0;  ///< [s] from t₀
-  double exit = 0.0;   ///< [s] from t₀
-  double time = 0.0;   ///< when it is deepest [s] from t₀
-  double depth = 0.0;  ///< [m]
-  /// Of the depth [m], from the field at this point: mostly less than ErrorSources::field. Beyond the band the point
-  /// may get deeper at another time by up to this. If the surfaces cross without any point inside, the depth is 0, and
-  /// they are no deeper than this. In a body of several parts the depth is that in one of them; where parts meet, the
-  /// body may be deeper by up to this, but is never less deep by more than the field's error.
-  double depth_error = 0.0;
-  Vector3d p_W = Vector3d::Zero();       ///< when deepest [m]
-  Vector3d normal_W = Vector3d::Zero();  ///< unit, from body A to body B
-};
-
-/// What a cycle says about one pair.
-struct PairResult {
-  int body_a = -1;
-  int body_b = -1;
-  Verdict verdict = Verdict::kNotChecked;
-  std::string reason;    ///< why it was not checked, is incomplete, or has no force (wrenches are NaN); else empty
-  WaypointSpan span;     ///< the part of the motion that was checked; empty if the pair is delayed
-  bool skipped = false;  ///< CLEAR without a test, by the clearance known from an earlier cycle
-  /// UNCERTAIN because no time was left to test it: by what is known from earlier cycles, the bodies overlap by no more
-  /// than the error.
-  bool postponed = false;
-  /// CONTACT, but no time was left to compute it: `reason` tells what is missing. If that is its times, depth and
-  /// force, the only interval is the whole span, during which it touches at `deepest` at least; its depth is up to
-  /// deepest.depth + depth_error, the greatest that the bodies allow; there are no points, and wrenches are NaN.
-  bool incomplete = false;
-  ErrorSources error;          ///< of the verdict
-  ErrorSources contact_error;  ///< of what fields and shells tell: points and, unless measured, intervals and depths;
-                               ///< zero if they tell nothing
-  double clearance = 0.0;      ///< lower bound of the distance at the span's end, the motion's error taken off [m];
-                               ///< negative if not known. See CycleRequest::skipped_pairs
-  std::vector<Interval> intervals;  ///< of any contact, φ ≤ 0 [s] from t₀
-  /// Valid if intervals is not empty; beyond the band, its error holds for all points. If measured, no point of either
-  /// surface gets deeper than this depth by more than depth_error within the span.
-  ContactPoint deepest;
-  /// Whether intervals and depths were measured on the surfaces: those of bodies with certain solids. The others' come
-  /// from fields and shells.
-  bool measured = false;
-  /// If measured, and the surfaces meet: the bodies are apart before `enter`, where the first interval begins, and
-  /// certainly touch by `exit`, which is infinite if no certain crossing was found. Not set if one body may be inside
-  /// the other at the start, unless that is a half-space.
-  std::optional<Interval> first_touch;
-  /// Likewise: they certainly touch at `enter`, which may be −∞, and are apart after `exit`, where the last interval
-  /// ends.
-  std::optional<Interval> last_touch;
-  Wrench on_a_W;  ///< average over the span, world axes, about A's origin at its end
-  Wrench on_b_W;  ///< the same on B, about B's origin
-  std::vector<ContactPoint> points;
-  /// Of each interval with shell points inside the deepest one, of others a crossing of the surfaces; in any order.
-  std::vector<ContactPoint> peaks;
-};
-
-/// What a cycle says about all pairs.
-struct CycleResult {
-  std::vector<PairResult> pairs;           ///< in the order of Scene::pairs
-  std::vector<int> not_clear;              ///< indices of those that are neither CLEAR nor delayed, increasing
-  std::vector<int> failed;                 ///< not in not_clear: NOT_CHECKED in all cycles, as a body was not built
-  Verdict verdict = Verdict::kNotChecked;  ///< worst of all pairs: CONTACT, UNCERTAIN, NOT_CHECKED, CLEAR;
-                                           ///< NOT_CHECKED if there are none, or some are delayed and the others CLEAR
-  double error_bound = 0.0;                ///< largest of the pairs checked [m]
-  ErrorSources error;                      ///< of that pair, by source
-  double contact_error = 0.0;              ///< largest PairResult::contact_error of all pairs [m]
-  int checked = 0;
-  int skipped = 0;
-  int not_checked = 0;
-  int delayed = 0;
-  int postponed = 0;
-  int incomplete = 0;     ///< of those checked
-  double run_time = 0.0;  ///< [s]
-};
-
 /// Range of MonitorOptions::max_error [m].
 ///@{
 constexpr double kMinMaxError = 1e-5, kLargestMaxError = 1e-2;
@@ -147,8 +73,6 @@ struct MonitorOptions {
 /// Scratch memory of checks, which is reused. Several monitors that run at the same time may share it; its size depends
 /// on how many pairs are checked at the same time.
 struct MonitorMemory;
-/// For monitors that are to share it.
-std::shared_ptr<MonitorMemory> makeMonitorMemory();
 
 class SceneDifference;
 
@@ -249,54 +173,106 @@ class Monitor {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Distance from a point to the nearest body at given poses; for the point queries. For a mesh with openings, the error
-/// covers that the point may be on either side, and that the nearest surface may be a cap: see
-/// DistanceField::meshSample(). Within a body of several elements, the distance and its gradient are those of one
-/// element; where elements meet, the surface of the body is farther away, and the error covers that.
-struct NearestBody {
-  int body = -1;          ///< -1 if no body is known
-  double distance = 0.0;  ///< [m], negative inside
-  double error = 0.0;     ///< [m]; infinite if bodies are known by their boxes only
-  Vector3d gradient_W = Vector3d::Zero();
+/// One contact of a pair of bodies, over however many cycles. Times are since the clock's epoch. For tiles of a map
+/// that changes (see VoxelMap) the other body is the map.
+struct TrackedContact {
+  /// Since the clock's epoch.
+  using Time = std::chrono::nanoseconds;
+
+  std::uint64_t id = 0;  ///< from 1, in the order in which contacts begin; never reused
+  std::string body_a, body_b;
+  bool begins = false;   ///< it began in the last cycle
+  bool ends = false;     ///< it ended in the last cycle; both if it lasted for a part of the cycle
+  bool is_lost = false;  ///< it ended because the pair's state became unknown: the bodies may still touch
+  Verdict verdict = Verdict::kUncertain;  ///< kContact if the pair was in CONTACT during it, in any cycle
+  Time begin{0};                          ///< first time at which it was seen
+  Time end{0};                            ///< last time at which it was seen, up to now
+  ContactPoint deepest;                   ///< of all cycles; its times are relative to `deepest_origin`
+  Time deepest_origin{0};
+  double error_bound = 0.0;      ///< of the verdict, largest of its cycles [m]
+  double contact_error = 0.0;    ///< of times and depths, largest of its cycles [m]
+  double max_force = 0.0;        ///< largest mean force of a cycle while it touched [N]; 0 if wrenches are not wanted,
+                                 ///< NaN if that of a cycle is not known (PairResult::incomplete)
+  std::uint32_t cycles = 0;      ///< number of cycles in which it was seen
+  bool seen_at_samples = false;  ///< a check of the recorded poses alone would have seen it
 };
 
-/// Triangles of meshes that have no field, each prepared when it is first needed and kept as long as the mesh is in
-/// use. Several searches may share them, in several threads.
-class MeshDistances;
-/// None yet.
-std::shared_ptr<MeshDistances> makeMeshDistances();
-/// Frees what was prepared of meshes that are gone; each new search does so too.
-void dropUnused(MeshDistances& meshes);
+/// A cycle through which contacts are tracked.
+struct ObservedCycle {
+  const CycleResult& result;
+  const CycleMotion& motion;
+  const std::vector<double>& samples;  ///< times of the recorded poses [s] from t₀, increasing
+  std::chrono::nanoseconds origin;     ///< t₀
+};
 
-/// Finds the nearest body to points. A body with a distance field is as far as that says; all others are as far as
-/// their primitives and the triangles of their meshes are, which need no field.
-class NearestBodySearch {
+/// Which breaks of a contact do not end it, so that noise of poses does not make many contacts of one.
+struct ContactJoin {
+  std::chrono::nanoseconds time{1000000};  ///< breaks up to this long are none: rounding and field cells cause them
+  /// But a break is one if the bodies are known to be farther apart than this at the end of a cycle in it [m].
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Tracks contacts over time: joins contacts that the ends of cycles have cut, under an id that stays as long as the
+/// contact lasts.
+///
+/// A contact lasts while the pair's distance is at or below zero. It continues across the breaks that ContactJoin names
+/// and across the ends of cycles, also across delayed cycles and changes of the world, because pairs are identified by
+/// their bodies' names. It ends when the pair has been checked for longer than a break without touching. If the pair is
+/// not checked for some time, or no longer, it ends as lost.
+///
+/// A body and all tiles of a map count as one pair: sliding from one tile to another, or touching a tile that is
+/// replaced, is one contact. It continues as long as one of the tiles is touched.
+///
+/// If a cycle checks earlier times again, because transforms came late, a contact found there joins the one of the pair
+/// that it meets, even if that had ended, which is then listed once more. If it meets none of the last two seconds and
+/// lies before the last one, it has ended, and the last one continues. Earlier messages are not corrected.
+///
+/// The cost of a cycle grows with the pairs that are not CLEAR and with the existing contacts. Memory is
+/// allocated only if a pair touches for the first time, or more contacts begin in two seconds than ever before.
+class ContactTracker {
  public:
-  /// @param description  of the scene.
-  /// @param meshes       null: they are not shared.
-  NearestBodySearch(std::shared_ptr<const Scene> scene, std::shared_ptr<const SceneDescription> description,
-                    std::shared_ptr<MeshDistances> meshes = nullptr);
-  ~NearestBodySearch();
+  /// The break that never ends a contact.
+  static constexpr std::chrono::nanoseconds kJoin = ContactJoin().time;
 
-  /// Prepares the meshes of one body, if it has no field. Takes some ten microseconds per triangle the first time.
-  /// @return what is uncertain about the body's inside, or why it is left out; empty if there is nothing to say.
-  std::string prepare(std::size_t body);
+  /// Of a scene's pairs; no contact yet.
+  explicit ContactTracker(const Scene& scene, const ContactJoin& join = {});
+  ~ContactTracker();
 
-  /// Whether the body is left out: it has no geometry, or is bad, or is not prepared.
-  bool isIgnored(std::size_t body) const;
+  /// What the tracker needs for another world.
+  struct Change;
+  /// Makes it while cycles run, from any thread, but not during adopt().
+  std::shared_ptr<Change> prepare(const Scene& next) const;
 
-  /// The nearest of the bodies that are prepared. @param X_WB  per body of the scene.
-  NearestBody nearest(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const;
+  /// Switches to another world between two cycles. Contacts of pairs that it has too continue; others end as lost, and
+  /// are listed with the next cycle. The cost grows with the contacts; no memory is freed or allocated.
+  /// `change` is from prepare(), called since the last adopt(), and receives the data of the previous world.
+  ///@{
+  void adopt(Change& change);
+  void adopt(const Scene& scene);
+  ///@}
+
+  /// Processes the next cycle of the adopted scene; all contacts must be computed (CycleRequest::contacts).
+  void update(const ObservedCycle& cycle);
+
+  /// To be called when a cycle is over: contacts no longer count as begun, and those that have ended are no longer
+  /// listed.
+  void clearEvents();
+
+  /// Ends all contacts as lost, for example after a jump of time.
+  void endAllAsLost();
+
+  /// The contacts of the last cycle, including those that ended in it. Valid until the next call.
+  ///@{
+  std::size_t size() const;
+  const TrackedContact& operator[](std::size_t i) const;
+  ///@}
+
+  /// Number of contacts that have not ended.
+  std::size_t open() const;
 
  private:
-  class Element;
-
-  static double greatestDepth(const std::vector<Element>& elements, const Vector3d& p_B);
-
-  std::shared_ptr<const Scene> scene_;
-  std::shared_ptr<const SceneDescription> description_;
-  std::shared_ptr<MeshDistances> meshes_;
-  std::vector<std::vector<Element>> elements_;  // per body; empty until it is prepared
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sdf_ccd

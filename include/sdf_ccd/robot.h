@@ -17,11 +17,6 @@
 
 namespace sdf_ccd {
 
-using JointPositions = std::map<std::string, double>;  ///< by joint name [rad or m]
-
-/// By joint name: pose of the joint's child link in the joint's frame (the one that its `origin` gives).
-using JointPoses = std::map<std::string, Isometry3d>;
-
 /// The tree of links and joints of a URDF.
 class RobotModel {
  public:
@@ -132,7 +127,7 @@ using PackageFinder = std::function<std::string(const std::string& package)>;
 PackageFinder packagesFromEnvironment();
 
 /// Reads `file://`, `package://` (also with a third slash) and plain paths (relative to `base_directory`, and to the
-/// working directory if that is empty). A file or folder whose name differs only by case is taken, with a warning.
+/// working directory if that is empty). A file or folder whose name differs only by case is used, with a warning.
 /// @throws std::runtime_error, with the URI and the reason: no such package or file, a directory, not readable, another
 /// scheme, `..` in a package URI.
 Resource loadLocalResource(const std::string& uri, const PackageFinder& packages, const std::string& base_directory);

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/contact.h"
 #include "sdf_ccd/monitor.h"
 #include "sdf_ccd/result.h"
 #include "sdf_ccd/robot.h"

@@ -131,7 +131,7 @@ class WorldEditor {
   explicit WorldEditor(const BodyOptions& options);
   ~WorldEditor();
 
-  /// Takes a scene that is already built as version 1. Pairs that it leaves out stay left out in later versions.
+  /// Begins with a scene that is already built, as version 1. Pairs that it leaves out stay left out in later versions.
   /// @param plan  the plan from which it was built, with the same options.
   std::shared_ptr<const WorldSnapshot> begin(SceneDescription description, const ScenePlan& plan, Scene scene);
 

@@ -17,9 +17,6 @@ struct Interval {
 /// Disjoint and increasing.
 using Intervals = std::vector<Interval>;
 
-/// Sorts intervals and joins those that overlap or lie within `gap` of each other.
-void mergeIntervals(Intervals& intervals, double gap = 0.0);
-
 /// A point's straight path, frame F [m]; t = 0 at the start and 1 at the end.
 struct Segment {
   Vector3d start;
@@ -71,25 +68,6 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
 /// conservative. Steps from one empty sphere to the next by field.lowerBound(). Also for segments outside the field's
 /// box.
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius);
-
-/// The side of the surface on which the whole segment surely is.
-enum class SweptSide { kOutside, kInside, kUnknown };
-
-/// How far from the surface a segment must stay to be on one side of it.
-struct SweptMargins {
-  double outside;  ///< outside: the true distance exceeds this [m]
-  double inside;   ///< inside: it is below minus this [m]
-};
-
-/// Conservative, as mayTouch(). kInside is found by one sphere about the middle only, as for segments that are short
-/// compared with the body.
-SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins);
-
-/// Parameters in (enter, exit), increasing, where the segment passes from one cell of the field to the next:
-/// between them the interpolated field is a cubic of the parameter (a quadrature that is exact for it, design §3.9).
-/// For a primitive: where the distance may have a kink, or a few evenly spaced for curved ones.
-void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,
-                  std::vector<double>& breaks);
 
 /// An interval of one segment, of its parameter in [0, 1].
 struct SegmentHit {

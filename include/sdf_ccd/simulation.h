@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/contact.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/primitive.h"
-#include "sdf_ccd/shell.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd {
 
@@ -39,24 +38,17 @@ MassProperties massProperties(const Primitive& primitive, double density);
 void validateInertia(double mass, const Matrix3d& inertia);
 
 /// Collision geometry in the body's frame B, whose origin is the centre of mass. Several bodies may share it.
-struct CollisionShape {
-  std::optional<DistanceField> field;  ///< none: the body only has a shell
-  PointShell shell;                    ///< empty: the body only has a field
-  SphereTree tree;
-  BoundingBall ball;  ///< contains points and surface; infinite for a half-space
-};
+struct CollisionShape;
 
 /// Builds field and shell of a shape from a closed mesh. The field has exact samples in the whole solid, so that deep
 /// overlaps have a depth.
 /// @param mesh_B  about the centre of mass; its components are oriented outward.
 /// @throws std::invalid_argument if field or shell cannot be built.
-CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell);
+std::shared_ptr<const CollisionShape> makeShape(const TriangleMesh& mesh_B, FieldOptions field,
+                                                const ShellOptions& shell);
 
 /// The same for a primitive: the field is exact. A half-space has no shell.
-CollisionShape makeShape(const Primitive& primitive, const ShellOptions& shell);
-
-/// A shape of points only.
-CollisionShape makeShape(PointShell shell);
+std::shared_ptr<const CollisionShape> makeShape(const Primitive& primitive, const ShellOptions& shell);
 
 /// A rigid body.
 struct RigidBody {

@@ -1,16 +1,64 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/motion.h"
-#include "sdf_ccd/robot.h"
 #include "sdf_ccd/types.h"
 
 namespace sdf_ccd {
+
+/// A part of a motion, by the indices of its first and last time.
+struct WaypointSpan {
+  std::size_t first = 0;
+  std::size_t last = 0;
+
+  /// Whether it has no length: see CycleMotion::spans.
+  bool empty() const { return first == last; }
+};
+
+/// Bodies farther than this from the world's origin are not checked [m]: there doubles round coordinates by 1e-8 m,
+/// which the error bound does not include, and much farther they overflow.
+constexpr double kFarthestPose = 1e8;
+
+/// From this angle on, two poses do not determine the direction of a frame's rotation [rad].
+constexpr double kAmbiguousTurn = 3.14159265358979323846 - 1e-6;
+
+/// Where the bodies were during a cycle (t₀, t₁]. Between two times each body moves with a constant twist in the
+/// world, along the shorter rotation: rotations of half a revolution and more between two times need times in between.
+struct CycleMotion {
+  std::vector<double> times;                  ///< [s] from t₀, increasing; first 0, last the cycle's length
+  std::vector<std::vector<Isometry3d>> X_WB;  ///< per body, per time; or a single pose, of a body at rest
+  std::vector<std::string> missing;  ///< per body: why its poses are not known, else empty; may be empty as a whole
+  /// Per body: distance of the true motion of its ball from that of X_WB [m]; may be infinite, or empty (no error).
+  std::vector<double> motion_error;
+
+  /// Per pair of the scene: the part of the motion to check it over. An empty span delays the pair: its transforms are
+  /// not known yet; at the last waypoint, it is done. No spans at all: every pair over all of the motion. Poses that no
+  /// span needs are not read.
+  std::vector<WaypointSpan> spans;
+
+  /// Pose X_WB of a body at a time, by their indices.
+  const Isometry3d& pose(std::size_t body, std::size_t time) const {
+    return X_WB[body][std::min(time, X_WB[body].size() - 1)];
+  }
+
+  /// The part of the motion to check a pair over.
+  WaypointSpan span(std::size_t pair) const { return spans.empty() ? WaypointSpan{0, times.size() - 1} : spans[pair]; }
+};
+
+/// How closely chords follow the arcs of points that rotate.
+struct ChordOptions {
+  double tolerance = 1e-4;  ///< chord error aimed at [m]
+  int max_chords = 1000;    ///< per recorded interval; a larger deviation then remains in ErrorSources::chord
+};
+
+using JointPositions = std::map<std::string, double>;  ///< by joint name [rad or m]
+
+/// By joint name: pose of the joint's child link in the joint's frame (the one that its `origin` gives).
+using JointPoses = std::map<std::string, Isometry3d>;
 
 /// State of a robot at one time.
 struct RobotState {
@@ -49,84 +97,10 @@ RobotState stateAt(const RobotTrajectory& trajectory, double time);
 /// @throws std::invalid_argument if they do not begin and end at the same times.
 RobotTrajectory merged(const RobotTrajectory& joints, const RobotTrajectory& joints_and_root);
 
-/// A body that moves with a link, or does not move.
-struct CarriedBody {
-  int link = -1;                             ///< by its index in RobotModel::links(); −1: it does not move
-  Isometry3d X_LB = Isometry3d::Identity();  ///< its frame in the link's; in the world without a link
-  BoundingBall ball_B;                       ///< contains its points
-};
-
-/// The current joint poses of a robot.
-struct CurrentJoints {
-  std::map<std::string, Isometry3d> X_PL;      ///< by joint: its child link in its parent link's frame
-  std::map<std::string, std::string> missing;  ///< by joint: why that is not known
-};
-
 /// A joint that a plan does not name, and its assumed position.
 struct AssumedJoint {
   std::string name;
   double position;  ///< [rad or m]; NaN for planar and floating joints, whose pose is not one number
 };
-
-/// A plan that gives the position of every joint.
-struct PlannedJoints {
-  RobotTrajectory trajectory;
-  std::vector<AssumedJoint> assumed;       ///< in the order of RobotModel::links()
-  std::vector<std::string> beyond_limits;  ///< limits that assumed positions exceed, as text
-  std::vector<std::string> missing;        ///< per link: why its pose in the root's frame is not known; empty if it is
-};
-
-/// What a plan may contain.
-struct PlanRules {
-  bool allow_beyond_limits = false;  ///< accept positions beyond limits
-};
-
-/// Completes a plan: a joint that it does not name, and whose leader it does not name, stays at the current pose of its
-/// link (its position is computed from the pose, not the other way round). If the pose is not known, fixed joints are
-/// at their pose in the URDF; for other joints, all links below are missing.
-///
-/// Rejected by std::invalid_argument, with joint, value and limit, are:
-/// - a joint that does not exist; a position or pose that is not finite; planar and
-///   floating joints with a position, other joints with a pose; a planar joint's pose
-///   outside its plane (by 1e-6);
-/// - a fixed joint with a position other than 0, a mimic joint whose position differs from
-///   its leader's (both by 1e-6), and a mimic joint whose leader is not named;
-/// - revolute and prismatic joints, also mimic joints, beyond their limits (by 1e-6, which
-///   covers rounding to single precision), unless PlanRules allows it. Limits in the wrong
-///   order are exchanged. Assumed positions are never rejected, but listed in
-///   beyond_limits.
-PlannedJoints completePlan(const RobotModel& robot, const RobotTrajectory& named, const CurrentJoints& now,
-                           const PlanRules& rules);
-
-/// A motion that is made piece by piece, because all samples of a long motion would take gigabytes.
-struct PlannedMotion {
-  std::vector<double> waypoints;  ///< times at which it can be split, from the first point on [s]
-
-  /// Sets the motion of all bodies from one waypoint to a later one; times count from the first of the two.
-  std::function<void(std::size_t first, std::size_t last, CycleMotion& motion)> piece;
-
-  std::vector<double> samples;  ///< times of the plan's points [s], from the first
-
-  std::vector<AssumedJoint> assumed;
-  std::vector<std::string> notes;  ///< about these, for the user
-};
-
-/// The bodies that a plan moves, or may hit.
-struct PlannedBodies {
-  std::vector<CarriedBody> bodies;
-  /// Per body: why its pose in the world or on its link is not known; may be empty.
-  std::vector<std::string> missing;
-};
-
-/// The motion of all bodies along a trajectory of the robot's joints.
-/// @param robot  must outlive the motion.
-/// @throws as TrajectoryMotion; std::invalid_argument also if the plan is not complete.
-PlannedMotion planAlong(const RobotModel& robot, const PlannedJoints& plan, const PlannedBodies& bodies,
-                        const MotionSampling& sampling = {});
-
-/// The motion of all bodies through given poses, at the motion's times; each takes the shorter rotation between two.
-/// @throws std::invalid_argument if the motion's sizes are inconsistent, its first time is not 0, it has spans, or two
-/// poses of a body leave the direction of its rotation open (kAmbiguousTurn).
-PlannedMotion planThrough(CycleMotion motion);
 
 }  // namespace sdf_ccd

@@ -3,7 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 
@@ -14,7 +14,7 @@ template <class Index, class Body>
 void parallelRanges(Index begin, Index end, const Body& body) {
   const CancelPoint cancel;
   tbb::parallel_for(tbb::blocked_range<Index>(begin, end), [&](const tbb::blocked_range<Index>& range) {
-    const CancelScope scope(cancel);
+    const TaskCancelScope scope(cancel);
     cancel.check();
     body(range.begin(), range.end());
   });

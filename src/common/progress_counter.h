@@ -5,7 +5,7 @@
 #include <functional>
 #include <mutex>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

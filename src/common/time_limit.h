@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

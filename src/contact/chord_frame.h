@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "motion/chords.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

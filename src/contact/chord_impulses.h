@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "chord_frame.h"
-#include "sdf_ccd/contact.h"
+#include "sdf_ccd/result.h"
 
 namespace sdf_ccd {
 

@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "cell_ways.h"
+#include "cell_paths.h"
 #include "chord_frame.h"
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "deepest.h"
 #include "field/cell_reader.h"
-#include "sdf_ccd/cancel.h"
+#include "field/field_access.h"
+#include "query/smooth_pieces.h"
 #include "sdf_ccd/segments.h"
 #include "smooth_piece.h"
 
@@ -68,7 +70,7 @@ class Integrator {
   }
 
   void finish() {
-    addWays();
+    addPaths();
     in_cells_.moveTo(impulses_);
     impulses_.finish();
   }
@@ -86,15 +88,15 @@ class Integrator {
     const int lane = pending_count_;
     pending_[lane] = {&hit, &depth, pointOf(hit)};
     const ChordPoint& point = pending_[lane].point;
-    if (!input_.field.grid() && !placeInLeaf(point, lane)) return false;
+    if (!FieldAccess::grid(input_.field) && !placeInLeaf(point, lane)) return false;
     for (int k = 0; k < 3; ++k) {
-      ways_.start[k][lane] = point.start[k];
-      ways_.step[k][lane] = point.step[k];
+      paths_.start[k][lane] = point.start[k];
+      paths_.step[k][lane] = point.step[k];
     }
     const double share = shareOf(hit);
-    ways_.stiffness[lane] = share * options_.stiffness;
-    ways_.damping[lane] = share * options_.damping;
-    if (++pending_count_ == CellWays::kCount) addWays();
+    paths_.stiffness[lane] = share * options_.stiffness;
+    paths_.damping[lane] = share * options_.damping;
+    if (++pending_count_ == CellPaths::kCount) addPaths();
     return true;
   }
 
@@ -102,23 +104,23 @@ class Integrator {
   bool placeInLeaf(const ChordPoint& point, int lane) {
     CellLine line;
     if (!field_.enter(point.start, point.position(1.0), line)) return false;
-    for (int k = 0; k < 8; ++k) ways_.corners[k][lane] = field_.corners()[k];
+    for (int k = 0; k < 8; ++k) paths_.corners[k][lane] = field_.corners()[k];
     for (int k = 0; k < 3; ++k) {
-      ways_.from[k][lane] = line.from[k];
-      ways_.to[k][lane] = line.to[k];
+      paths_.from[k][lane] = line.from[k];
+      paths_.to[k][lane] = line.to[k];
     }
-    ways_.side[lane] = field_.side();
+    paths_.side[lane] = field_.side();
     return true;
   }
 
-  void addWays() {
+  void addPaths() {
     if (pending_count_ == 0) return;
     unsigned placed = (1U << pending_count_) - 1;
-    if (const SparseGrid* grid = input_.field.grid()) placed &= placeInGrid(*grid, ways_);
-    for (int lane = 0; lane < CellWays::kCount; ++lane)
-      if ((placed >> lane & 1U) == 0) ways_.stiffness[lane] = ways_.damping[lane] = 0.0;
+    if (const SparseGrid* grid = FieldAccess::grid(input_.field)) placed &= placeInGrid(*grid, paths_);
+    for (int lane = 0; lane < CellPaths::kCount; ++lane)
+      if ((placed >> lane & 1U) == 0) paths_.stiffness[lane] = paths_.damping[lane] = 0.0;
     CellDepths deepest;
-    if (placed != 0) in_cells_.add(ways_, pending_[0].point.duration(), deepest);
+    if (placed != 0) in_cells_.add(paths_, pending_[0].point.duration(), deepest);
     for (int lane = 0; lane < pending_count_; ++lane) {
       const auto& [hit, depth, point] = pending_[lane];
       if ((placed >> lane & 1U) == 0 || deepest.bears[lane] == 0.0) {
@@ -346,9 +348,9 @@ class Integrator {
   PieceEnd end_;
   bool is_smooth_ = false;  // this hit is one smooth piece
   bool may_add_to_ways_;
-  double reach_from_;  // depth from which on a point's reach is told [m]
-  CellWays ways_;
-  std::array<Pending, CellWays::kCount> pending_;  // of ways_
+  double reach_from_;  // depth from which on a point's reach is reported [m]
+  CellPaths paths_;
+  std::array<Pending, CellPaths::kCount> pending_;  // of paths_
   int pending_count_ = 0;
   CellImpulses in_cells_;
 };

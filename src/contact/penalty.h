@@ -4,9 +4,9 @@
 
 #include "motion/chords.h"
 #include "query/shell_query.h"
-#include "sdf_ccd/contact.h"
 #include "sdf_ccd/field.h"
-#include "sdf_ccd/shell.h"
+#include "sdf_ccd/result.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

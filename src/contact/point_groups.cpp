@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "query/shell_query.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 
@@ -24,14 +25,14 @@ struct GroupedShell {
   const std::vector<NodeSum>& sums;
 };
 
-/// Takes shell points that are deep inside a field along a whole chord together, so that the cost of a deep contact does
-/// not grow with the number of points.
+/// Joins shell points that are deep inside a field along a whole chord, so that the cost of a deep contact
+/// does not grow with the number of points.
 ///
 /// Points of a node are a group if the node's radius is at most a quarter of the depth of its centre, which it is all
-/// along the chord, and an eighth of the shell's. All of their area bears at its centroid: exact for the force in a field
-/// that is linear among the points, as mostly it is at such a depth; the moments that are left out, of the area about its
-/// centroid, are at most a 64th of the shell's. Elsewhere, as across the middle between two faces, the error is about the
-/// share of the depth by which the field bends within the group.
+/// along the chord, and an eighth of the shell's. All of their area bears at its centroid: exact for the force in a
+/// field that is linear among the points, as mostly it is at such a depth; the moments that are left out, of the area
+/// about its centroid, are at most a 64th of the shell's. Elsewhere, as across the middle between two faces, the error
+/// is about the share of the depth by which the field bends within the group.
 class PointGroups {
  public:
   struct Group {
@@ -51,8 +52,8 @@ class PointGroups {
   const PointShell& shell() const { return centroids_; }
   const std::vector<ShellHit>& hits() const { return hits_; }
 
-  /// Sets one real point of each group, and further ones that may be deeper than `known` and these [m]. Lowers the groups'
-  /// reach where that shows that no point is as deep. @param points  replaced.
+  /// Sets one real point of each group, and further ones that may be deeper than `known` and these [m]. Lowers the
+  /// groups' reach where that shows that no point is as deep. @param points  replaced.
   void findDeep(const DistanceField& field, const GroupedShell& shell, const ChordPath& path, double known,
                 std::vector<ShellHit>& points);
 

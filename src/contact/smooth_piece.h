@@ -33,7 +33,7 @@ class SmoothPieceReader {
   /// @param cells  of the field; must outlive this, like the field.
   SmoothPieceReader(const DistanceField& field, CellReader& cells) : cells_(cells), primitive_(field.primitive()) {}
 
-  /// The whole way from one point to another [m]. @return false if it is not one smooth piece, or not known to be one.
+  /// The whole path from one point to another [m]. @return false if it is not one smooth piece, or not known to be one.
   bool readWay(const Vector3d& from, const Vector3d& to, SmoothPiece& piece);
 
   /// What lies between two of smoothPieces()'s breaks, whose rounding may leave them in a neighbouring cell.

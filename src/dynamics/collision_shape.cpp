@@ -1,10 +1,12 @@
+#include "dynamics/collision_shape.h"
+
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "scene/build_body.h"
-#include "sdf_ccd/simulation.h"
+#include "sdf_ccd/field.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {
@@ -23,7 +25,7 @@ BoundingBall ballAround(const CollisionShape& shape) {
   return ball;
 }
 
-CollisionShape shapeOf(GeometryDescription geometry, const BodyOptions& options) {
+std::shared_ptr<const CollisionShape> shapeOf(GeometryDescription geometry, const BodyOptions& options) {
   BodyDescription description;
   description.geometry.push_back(std::move(geometry));
   BodyNeeds needs;
@@ -33,12 +35,13 @@ CollisionShape shapeOf(GeometryDescription geometry, const BodyOptions& options)
   if (!body.failure.empty()) throw std::invalid_argument(body.failure);
   CollisionShape shape{body.parts.front().field, *body.shell, *body.tree, {}};
   shape.ball = ballAround(shape);
-  return shape;
+  return std::make_shared<const CollisionShape>(std::move(shape));
 }
 
 }  // namespace
 
-CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const ShellOptions& shell) {
+std::shared_ptr<const CollisionShape> makeShape(const TriangleMesh& mesh_B, FieldOptions field,
+                                                const ShellOptions& shell) {
   // Inside, the surface is never farther than half the smallest side of its box.
   field.band = std::max(field.band, 0.5 * boundingBox(mesh_B).sizes().minCoeff());
   BodyOptions options;
@@ -48,18 +51,18 @@ CollisionShape makeShape(const TriangleMesh& mesh_B, FieldOptions field, const S
   return shapeOf({std::make_shared<const TriangleMesh>(mesh_B), Isometry3d::Identity(), "mesh"}, options);
 }
 
-CollisionShape makeShape(const Primitive& primitive, const ShellOptions& shell) {
+std::shared_ptr<const CollisionShape> makeShape(const Primitive& primitive, const ShellOptions& shell) {
   BodyOptions options;
   options.shell = shell;
   return shapeOf({primitive, Isometry3d::Identity(), "primitive"}, options);
 }
 
-CollisionShape makeShape(PointShell shell) {
+std::shared_ptr<const CollisionShape> makeShape(PointShell shell) {
   CollisionShape shape;
   shape.shell = std::move(shell);
   shape.tree = buildSphereTree(shape.shell);
   shape.ball = ballAround(shape);
-  return shape;
+  return std::make_shared<const CollisionShape>(std::move(shape));
 }
 
 }  // namespace sdf_ccd

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/role_weight.h"
+#include "dynamics/collision_shape.h"
 
 namespace sdf_ccd {
 namespace {

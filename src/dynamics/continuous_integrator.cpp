@@ -1,6 +1,7 @@
 #include "explicit_step.h"
 
 #include "contact/penalty.h"
+#include "dynamics/collision_shape.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "dynamics/collision_shape.h"
+#include "shell/point_shell.h"
+
 namespace sdf_ccd {
 namespace {
 

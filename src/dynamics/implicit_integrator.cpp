@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "dynamics/collision_shape.h"
 #include "explicit_step.h"
 #include "velocity_system.h"
 
@@ -104,7 +105,7 @@ class ImplicitIntegrator : public Integrator {
     return energies;
   }
 
-  /// Whether points pass through a solid: they end far behind the planes that hold them. Not told of a motion of more
+  /// Whether points pass through a solid: they end far behind the planes that hold them. Not known of a motion of more
   /// than a radian, where planes say little.
   bool pointsPass() const {
     if (motion_.times.size() > 2) return false;

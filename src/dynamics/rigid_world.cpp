@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/number_text.h"
+#include "dynamics/collision_shape.h"
 
 namespace sdf_ccd {
 namespace {

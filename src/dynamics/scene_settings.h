@@ -4,8 +4,8 @@
 #include <string>
 
 #include "common/settings/settings_reader.h"
-#include "sdf_ccd/contact.h"
 #include "sdf_ccd/primitive.h"
+#include "sdf_ccd/result.h"
 
 /// What scenes of the monitor and of the simulation have in common.
 namespace sdf_ccd {

@@ -2,9 +2,12 @@
 
 #include <optional>
 
+#include "dynamics/collision_shape.h"
 #include "dynamics/scene_settings.h"
 #include "mesh/generated_mesh.h"
+#include "sdf_ccd/field.h"
 #include "sdf_ccd/mesh.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {
@@ -73,7 +76,7 @@ SceneShape buildSceneShape(SettingsReader shape, const std::string& directory) {
     if (bounded) {
       built.mesh_B = std::make_shared<TriangleMesh>(tessellate(*primitive, box.sizes().maxCoeff() / 200.0));
     }
-    collision = makeShape(*primitive, shell);
+    collision = *makeShape(*primitive, shell);
   } else {
     const std::optional<TriangleMesh> drawn = readMesh(shape, type, directory);
     if (!drawn) shape.fail("type", "one of box sphere cylinder plane mesh bowl blob top wedge slot bolt nut");
@@ -90,7 +93,7 @@ SceneShape buildSceneShape(SettingsReader shape, const std::string& directory) {
     field.cells = shape.integer("cells", 64, 1);
     shell.spacing = shape.positive("spacing", side / 25.0);
     shell.vertex_spacing = shape.number("vertex_spacing", 0.5 * shell.spacing);
-    collision = makeShape(*built.mesh_B, field, shell);
+    collision = *makeShape(*built.mesh_B, field, shell);
   }
   if (linear) flatten(collision);
   shape.finish();

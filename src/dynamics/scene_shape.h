@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "common/settings/settings_reader.h"
+#include "dynamics/collision_shape.h"
 #include "sdf_ccd/simulation.h"
 
 namespace sdf_ccd {

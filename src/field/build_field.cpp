@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "field/adaptive/build_adaptive.h"
+#include "field/build_field.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "field/uniform/build_uniform.h"
 #include "solid/closed_solid.h"
@@ -51,11 +53,11 @@ DistanceField buildField(const ClosedSolid& closed, const FieldOptions& given, c
     const double moved = closed.moved() + narrow;
     FieldOptions rest = options;
     rest.max_error = std::max(wanted - moved, 0.5 * wanted);
-    return DistanceField(buildAdaptive(closed.solid(), rest, progress), std::move(caps), moved);
+    return FieldAccess::make(buildAdaptive(closed.solid(), rest, progress), std::move(caps), moved);
   }
   std::shared_ptr<const SparseGrid> grid = buildUniform(closed.solid(), options, progress);
   std::shared_ptr<const OpeningCaps> caps = wideCaps(closed.openings(), kNarrowCap * grid->errorBound(), narrow);
-  return DistanceField(std::move(grid), std::move(caps), closed.moved() + narrow);
+  return FieldAccess::make(std::move(grid), std::move(caps), closed.moved() + narrow);
 }
 
 }  // namespace sdf_ccd

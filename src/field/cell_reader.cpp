@@ -1,6 +1,7 @@
 #include "field/cell_reader.h"
 
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/grid_cell.h"
 #include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
@@ -8,7 +9,10 @@
 namespace sdf_ccd {
 
 CellReader::CellReader(const DistanceField& field)
-    : field_(field), primitive_(field.primitive()), grid_(field.grid()), adaptive_(field.adaptive()) {
+    : field_(field),
+      primitive_(field.primitive()),
+      grid_(FieldAccess::grid(field)),
+      adaptive_(FieldAccess::adaptive(field)) {
   if (primitive_) return;
   box_ = field.box();
   origin_ = grid_ ? grid_->shape().origin : adaptive_->shape().origin;

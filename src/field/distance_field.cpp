@@ -7,6 +7,7 @@
 #include "common/infinity.h"
 #include "common/number_text.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
 #include "grid_sample.h"
@@ -25,11 +26,9 @@ FieldSample outsideSample(const AlignedBox3d& surface_box, const Vector3d& p_F, 
   return {0.5 * (low + high), 0.5 * (high - low), (p_F - nearest).normalized()};
 }
 
-/// The grid. @throws std::invalid_argument if there is none, or `moved` is not a distance.
-template <typename Grid>
-std::shared_ptr<const Grid> valid(std::shared_ptr<const Grid> grid, double moved) {
+void requireValid(const void* grid, double moved) {
   if (!grid) throw std::invalid_argument("distance field: no grid");
-  if (moved >= 0.0 && std::isfinite(moved)) return grid;
+  if (moved >= 0.0 && std::isfinite(moved)) return;
   throw std::invalid_argument("distance field: the surface cannot have moved by " + numberText(moved) + " m");
 }
 
@@ -49,31 +48,36 @@ Primitive normalised(Primitive primitive) {
 DistanceField::DistanceField(const Primitive& primitive)
     : representation_(normalised(primitive)), surface_box_(boundingBox(primitive)) {}
 
-DistanceField::DistanceField(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
-                             double moved)
-    : representation_(valid(std::move(grid), moved)),
-      surface_box_(this->grid()->shape().surface_box),
-      openings_(std::move(openings)),
-      moved_(moved) {}
+DistanceField::DistanceField(
+    std::variant<Primitive, std::shared_ptr<const SparseGrid>, std::shared_ptr<const AdaptiveGrid>> grid,
+    const AlignedBox3d& surface_box, std::shared_ptr<const OpeningCaps> openings, double moved)
+    : representation_(std::move(grid)), surface_box_(surface_box), openings_(std::move(openings)), moved_(moved) {}
 
-DistanceField::DistanceField(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings,
-                             double moved)
-    : representation_(valid(std::move(grid), moved)),
-      surface_box_(adaptive()->shape().surface_box),
-      openings_(std::move(openings)),
-      moved_(moved) {}
+DistanceField FieldAccess::make(std::shared_ptr<const SparseGrid> grid, std::shared_ptr<const OpeningCaps> openings,
+                                double moved) {
+  requireValid(grid.get(), moved);
+  const AlignedBox3d& surface_box = grid->shape().surface_box;
+  return {std::move(grid), surface_box, std::move(openings), moved};
+}
+
+DistanceField FieldAccess::make(std::shared_ptr<const AdaptiveGrid> grid, std::shared_ptr<const OpeningCaps> openings,
+                                double moved) {
+  requireValid(grid.get(), moved);
+  const AlignedBox3d& surface_box = grid->shape().surface_box;
+  return {std::move(grid), surface_box, std::move(openings), moved};
+}
 
 const Primitive* DistanceField::primitive() const {
   return std::get_if<Primitive>(&representation_);
 }
 
-const SparseGrid* DistanceField::grid() const {
-  const auto* grid = std::get_if<std::shared_ptr<const SparseGrid>>(&representation_);
+const SparseGrid* FieldAccess::grid(const DistanceField& field) {
+  const auto* grid = std::get_if<std::shared_ptr<const SparseGrid>>(&field.representation_);
   return grid ? grid->get() : nullptr;
 }
 
-const AdaptiveGrid* DistanceField::adaptive() const {
-  const auto* grid = std::get_if<std::shared_ptr<const AdaptiveGrid>>(&representation_);
+const AdaptiveGrid* FieldAccess::adaptive(const DistanceField& field) {
+  const auto* grid = std::get_if<std::shared_ptr<const AdaptiveGrid>>(&field.representation_);
   return grid ? grid->get() : nullptr;
 }
 
@@ -85,7 +89,8 @@ FieldSample DistanceField::sample(const Vector3d& p_F) const {
   }
   const AlignedBox3d within = box();
   const Vector3d q = p_F.cwiseMax(within.min()).cwiseMin(within.max());
-  const FieldSample within_box = adaptive() ? sampleWithin(*adaptive(), q) : sampleWithin(*grid(), q);
+  const FieldSample within_box = FieldAccess::adaptive(*this) ? sampleWithin(*FieldAccess::adaptive(*this), q)
+                                                              : sampleWithin(*FieldAccess::grid(*this), q);
   FieldSample sample = q == p_F ? within_box : outsideSample(surface_box_, p_F, q, within_box);
   sample.error += moved_;
   return sample;
@@ -103,7 +108,8 @@ double DistanceField::openingDistance(const Vector3d& p_F) const {
 FieldValue DistanceField::interpolate(const Vector3d& p_F) const {
   if (const Primitive* shape = primitive()) return {signedDistance(*shape, p_F), distanceGradient(*shape, p_F)};
   if (box().contains(p_F)) {
-    return adaptive() ? interpolateWithin(*adaptive(), p_F) : interpolateWithin(*grid(), p_F);
+    return FieldAccess::adaptive(*this) ? interpolateWithin(*FieldAccess::adaptive(*this), p_F)
+                                        : interpolateWithin(*FieldAccess::grid(*this), p_F);
   }
   const FieldSample outside = sample(p_F);
   return {outside.value, outside.gradient};
@@ -116,7 +122,8 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
   }
   const double to_surface_box = surface_box_.exteriorDistance(p_F);
   if (!box().contains(p_F)) return {to_surface_box - moved_, kInfinity};
-  DistanceBounds bounds = adaptive() ? boundsWithin(*adaptive(), p_F) : boundsWithin(*grid(), p_F);
+  DistanceBounds bounds = FieldAccess::adaptive(*this) ? boundsWithin(*FieldAccess::adaptive(*this), p_F)
+                                                       : boundsWithin(*FieldAccess::grid(*this), p_F);
   // Inside the surface's box a point may be inside the body, so the distance to the box says nothing there.
   if (to_surface_box > 0.0) bounds.low = std::max(bounds.low, to_surface_box);
   return {bounds.low - moved_, bounds.high + moved_};
@@ -124,27 +131,32 @@ DistanceBounds DistanceField::bounds(const Vector3d& p_F) const {
 
 double DistanceField::band() const {
   if (primitive()) return kInfinity;
-  return adaptive() ? adaptive()->shape().band : grid()->shape().band;
+  return FieldAccess::adaptive(*this) ? FieldAccess::adaptive(*this)->shape().band
+                                      : FieldAccess::grid(*this)->shape().band;
 }
 
 double DistanceField::errorBound() const {
   if (primitive()) return 0.0;
-  return moved_ + (adaptive() ? adaptive()->shape().error_bound : grid()->errorBound());
+  return moved_ + (FieldAccess::adaptive(*this) ? FieldAccess::adaptive(*this)->shape().error_bound
+                                                : FieldAccess::grid(*this)->errorBound());
 }
 
 std::size_t DistanceField::bytes() const {
   if (primitive()) return sizeof(Primitive);
-  return (adaptive() ? adaptive()->bytes() : grid()->bytes()) + (openings_ ? openings_->bytes() : 0);
+  return (FieldAccess::adaptive(*this) ? FieldAccess::adaptive(*this)->bytes() : FieldAccess::grid(*this)->bytes()) +
+         (openings_ ? openings_->bytes() : 0);
 }
 
 std::size_t DistanceField::cells() const {
   if (primitive()) return 0;
-  return adaptive() ? adaptive()->leafCount() : grid()->storedCells();
+  return FieldAccess::adaptive(*this) ? FieldAccess::adaptive(*this)->leafCount()
+                                      : FieldAccess::grid(*this)->storedCells();
 }
 
 AlignedBox3d DistanceField::box() const {
   if (primitive()) return surface_box_;
-  return adaptive() ? adaptive()->shape().box() : grid()->shape().box();
+  return FieldAccess::adaptive(*this) ? FieldAccess::adaptive(*this)->shape().box()
+                                      : FieldAccess::grid(*this)->shape().box();
 }
 
 }  // namespace sdf_ccd

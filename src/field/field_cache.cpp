@@ -5,6 +5,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "field/build_field.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "field/source_field.h"
 #include "mesh/content_hash.h"
@@ -45,7 +47,8 @@ CachedField cachedField(const FileCache& cache, const SolidSource& source, const
   const std::string name = fieldFileName(source.mesh(), options);
   const auto load = [&](const std::string& path) {
     field = loadField(path, name);
-    const std::size_t bytes = field->bytes() - (field->openings() ? field->openings()->bytes() : 0);
+    const std::size_t bytes =
+        field->bytes() - (FieldAccess::openings(*field) ? FieldAccess::openings(*field)->bytes() : 0);
     if (bytes > options.max_bytes) {  // made with a larger limit
       throw std::length_error("field: " + std::to_string(bytes >> 20) + " MB, more than the " +
                               std::to_string(options.max_bytes >> 20) + " MB allowed");

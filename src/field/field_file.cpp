@@ -6,6 +6,7 @@
 #include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_file.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/lost_surface.h"
 #include "field/uniform/sparse_grid.h"
 #include "grid_record.h"
@@ -30,15 +31,16 @@ void saveField(const DistanceField& field, const std::string& path, const std::s
 
 void saveField(const DistanceField& field, const std::string& path, const std::string& key,
                const std::optional<LostSurface>& lost) {
-  if (const AdaptiveGrid* adaptive = field.adaptive()) return saveAdaptive(*adaptive, field, path, key, lost);
-  const SparseGrid* grid = field.grid();
+  if (const AdaptiveGrid* adaptive = FieldAccess::adaptive(field))
+    return saveAdaptive(*adaptive, field, path, key, lost);
+  const SparseGrid* grid = FieldAccess::grid(field);
   if (!grid) throw std::invalid_argument(path + ": the field of a primitive is exact and needs no file");
   const GridShape& shape = grid->shape();
   const UniformRecord record{gridRecord(shape, shape.bricks, grid->errorBound(), GridShape::kBrick, field.moved()),
                              shape.step};
   std::vector<FileSection> sections = {
       {&record, sizeof record}, sectionOf(grid->corners()), sectionOf(grid->words()), sectionOf(grid->samples())};
-  addCaps(field.openings(), sections);
+  addCaps(FieldAccess::openings(field), sections);
   addLost(lost, sections);
   writeCheckedFile(path, {kKind, kVersion, key}, sections);
 }
@@ -63,8 +65,8 @@ DistanceField loadField(const std::string& path, const std::string& key) {
   arrays.words.data = file->section<std::uint32_t>(2, arrays.words.size);
   arrays.samples.data = file->section<std::int16_t>(3, arrays.samples.size);
   try {
-    return DistanceField(std::make_shared<const SparseGrid>(shape, arrays, record->grid.error_bound, file),
-                         loadCaps(*file, 4, shape.surface_box), record->grid.moved);
+    return FieldAccess::make(std::make_shared<const SparseGrid>(shape, arrays, record->grid.error_bound, file),
+                             loadCaps(*file, 4, shape.surface_box), record->grid.moved);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/number_text.h"
+#include "field/build_field.h"
 
 namespace sdf_ccd {
 

@@ -26,13 +26,13 @@ LatticeGrid::LatticeGrid(const AlignedBox3d& box, const Vector3d& origin, const 
 }
 
 int farthestSample(const GridShape& shape) {
-  // The smallest |φ| of a brick's samples is at most the band, one cell and half of a cell's diagonal, see take(). The
-  // other samples are no farther from that one than the brick's diagonal.
+  // The smallest |φ| of a brick's samples is at most the band, one cell and half of a cell's diagonal, see append().
+  // The other samples are no farther from that one than the brick's diagonal.
   constexpr double kMore = 1.0 + kHalfSqrt3 + 2.0 * kHalfSqrt3 * GridShape::kBrick;
   return static_cast<int>(std::ceil(shape.band / shape.cell + kMore)) + 1;
 }
 
-bool BrickSamples::take(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape) {
+bool BrickSamples::append(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape) {
   std::array<float, GridShape::kSamples> metres;
   double nearest = kInfinity;
   std::size_t at = 0;

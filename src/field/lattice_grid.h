@@ -19,7 +19,7 @@ struct LatticeGrid {
   Vector3i low;     ///< the grid's first corner, in cells from the origin
 };
 
-/// Upper bound of |φ| at the samples that BrickSamples takes [cells].
+/// Upper bound of |φ| at the samples that BrickSamples holds [cells].
 int farthestSample(const GridShape& shape);
 
 /// Samples of bricks, one after the other.
@@ -27,7 +27,7 @@ struct BrickSamples {
   /// Appends a brick's samples if |φ| ≤ band + cell may hold at one of its points; returns whether it did.
   /// @param distances  exact up to farthestSample().
   /// @param first      the brick's first corner, as a point of `distances`.
-  bool take(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape);
+  bool append(const LatticeDistance& distances, const Vector3i& first, const GridShape& shape);
 
   std::int32_t bricks = 0;
   std::vector<std::int16_t> samples;

@@ -1,5 +1,6 @@
 #include "field/source_field.h"
 
+#include "field/build_field.h"
 #include "field/voxel_field.h"
 
 namespace sdf_ccd {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/lattice.h"
+#include "field/field_access.h"
 #include "field/lattice_grid.h"
 
 namespace sdf_ccd {
@@ -84,10 +85,10 @@ std::optional<DistanceField> voxelField(const VoxelBlock& block, const VoxelLatt
   data.slots.assign(shape.brickCount(), SparseGrid::kFar);
   BrickSamples samples;
   forEachPoint(shape.bricks, [&](const Vector3i& b) {
-    if (samples.take(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
+    if (samples.append(distances, GridShape::kBrick * b, shape)) data.slots[shape.brickIndex(b)] = samples.bricks - 1;
   });
   data.samples = std::move(samples.samples);
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+  return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)));
 }
 
 }  // namespace sdf_ccd

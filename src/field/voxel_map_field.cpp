@@ -8,6 +8,7 @@
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
 #include "field/corner_squares.h"
+#include "field/field_access.h"
 #include "field/lattice_grid.h"
 #include "field/uniform/uniform_shape.h"
 #include "field/voxel_field.h"
@@ -74,7 +75,7 @@ class MapGrid {
     distances.compute(n_, low, (high - low).array() + 1, first_voxel, last_voxel,
                       [&](const Vector3i& v) { return solid_.isIn(v.x(), v.y(), v.z()); });
     for (const Vector3i& b : near)
-      if (samples.take(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
+      if (samples.append(distances, GridShape::kBrick * (b - first), shape())) bricks.push_back(shape().brickIndex(b));
   }
 
  private:
@@ -152,7 +153,7 @@ DistanceField buildField(const VoxelSolid& solid, const FieldOptions& options, c
     data.samples.insert(data.samples.end(), of_block.begin(), of_block.end());
     of_block = {};
   }
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
+  return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)), nullptr, solid.moved());
 }
 
 }  // namespace sdf_ccd

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "common/cancel_point.h"
 #include "mesh_edges.h"
 
 namespace sdf_ccd {

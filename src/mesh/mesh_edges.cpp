@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "common/cancel_point.h"
 #include "common/resize_in_steps.h"
 
 namespace sdf_ccd {

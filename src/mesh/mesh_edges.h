@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 #include "sdf_ccd/mesh.h"
 
 namespace sdf_ccd {

@@ -7,6 +7,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "common/cancel_point.h"
+
 namespace sdf_ccd {
 namespace {
 

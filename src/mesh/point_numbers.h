@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 #include "sdf_ccd/types.h"
 
 namespace sdf_ccd {

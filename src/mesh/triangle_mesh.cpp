@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "mesh/box_measures.h"
 #include "mesh/point_numbers.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

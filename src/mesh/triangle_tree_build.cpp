@@ -4,14 +4,13 @@
 #include <numeric>
 
 #include "binned_split.h"
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "common/resize_in_steps.h"
 #include "triangle_tree.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

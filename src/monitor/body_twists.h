@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/compiler_lanes.h"
-#include "sdf_ccd/motion.h"
 #include "sdf_ccd/scene.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

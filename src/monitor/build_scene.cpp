@@ -4,6 +4,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "resting_answers.h"
@@ -11,8 +12,8 @@
 #include "scene/name_pair.h"
 #include "scene/plan/scene_totals.h"
 #include "scene/plan/surface_needs.h"
-#include "sdf_ccd/cancel.h"
 #include "sdf_ccd/scene.h"
+#include "shell/point_shell.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

@@ -3,10 +3,10 @@
 
 #include <tbb/task_arena.h>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "common/processor_time.h"
 #include "monitor_impl.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

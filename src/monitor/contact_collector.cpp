@@ -4,10 +4,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/cancel_point.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "motion/time_at.h"
+#include "query/smooth_pieces.h"
 #include "scene/union_depth.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -86,7 +88,7 @@ void ContactCollector::add(PairRole& role, double weight, const ContactOptions& 
         X_CG_.push_back(X_CF_[first + i] * part.X_BG);
       }
       const ContactInput input{part.field, role.shell(), block, X_CG_, role.siblings(p)};
-      const bool in_groups = groups_points && !part.field.openings();
+      const bool in_groups = groups_points && !part.field.hasOpenings();
       if (in_groups) {
         groups_.divide(part.field, shell, block, query_, listed_);
       } else {
@@ -114,7 +116,7 @@ void ContactCollector::addGroups(const ContactInput& input, std::size_t part, co
     impulse_on_a_C_ += (shell_is_a ? weight : -weight) * impulse_.on_shell_body;
   }
   groups_.findDeep(input.field, shell, input.path, deepest_, hits_);
-  integrateContact(input, hits_, options, {false, input.field.openings() != nullptr}, impulse_);
+  integrateContact(input, hits_, options, {false, input.field.hasOpenings()}, impulse_);
   const std::vector<PointGroups::Group>& groups = groups_.groups();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     impulse_.depths[g].reach = groups[g].reach;
@@ -149,7 +151,7 @@ void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool
                 hit.point,
                 {times.enter, times.exit, depth.time, depth.depth, depth.error, {}, {}},
                 part,
-                input.field.openings() ? nullptr : &input.field,
+                FieldAccess::openings(input.field) ? nullptr : &input.field,
                 depth.p_F,
                 depth.reach};
     found.contact.p_W = depth.p_C + p_WC_;
@@ -163,7 +165,7 @@ void ContactCollector::addHits(const ContactInput& input, std::size_t part, bool
 
 /// integrateContact() over all hits; in a field with openings only over those that may bear force.
 void ContactCollector::integrate(const ContactInput& input, const ContactOptions& options, bool with_impulse) {
-  const bool open = input.field.openings() != nullptr;
+  const bool open = input.field.hasOpenings();
   integrateContact(input, hits_, options, {with_impulse && !open, open}, impulse_);
   if (!open) return;
   bearing_hits_.clear();
@@ -183,7 +185,7 @@ bool ContactCollector::bearsForce(const ContactInput& input, std::size_t hit) co
   const HitDepth& depth = impulse_.depths[hit];
   if (depth.siblings) return false;
   if (!crosses_ && depth.depth > depth.error + path_error_) return false;
-  return !input.field.openings()->isWithin(depth.p_F, depth.depth + depth.error);
+  return !FieldAccess::openings(input.field)->isWithin(depth.p_F, depth.depth + depth.error);
 }
 
 /// Times that differ by less count as the same [s].

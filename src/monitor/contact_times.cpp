@@ -11,20 +11,15 @@ namespace {
 constexpr int kParts = 4;              // of a gap, at whose ends the bodies are looked at
 constexpr double kShortestGap = 1e-9;  // of the span; shorter gaps are none
 
-/// What is known of a time.
-struct Sample {
-  double time;
-  bool touches;
-};
-
 class TimeSearch {
  public:
   TimeSearch(SurfacePair& surfaces, const PairDepth& depth, double certain, SeparationMemory& memory,
-             PairResult& result)
+             std::vector<TimeSample>& samples, PairResult& result)
       : surfaces_(surfaces),
         depth_(depth),
         certain_(certain),
         memory_(memory),
+        samples_(samples),
         result_(result),
         start_(surfaces.motion().motion(0).t_start),
         end_(surfaces.motion().motion(surfaces.motion().steps() - 1).t_end) {}
@@ -36,13 +31,14 @@ class TimeSearch {
       result_.last_touch = {end_, end_};
       return;
     }
-    std::vector<Sample> samples = samplesOfSteps();
+    std::vector<TimeSample>& samples = samples_;
+    lookAtSteps(samples);
     if (crossing) samples.push_back({crossing->time, true});
     if (found.deepest.depth > certain_) samples.push_back({found.deepest.time, true});
     sort(samples);
     addCrossings(samples);
     lookIntoGaps(samples);
-    const auto touches = [](const Sample& sample) { return sample.touches; };
+    const auto touches = [](const TimeSample& sample) { return sample.touches; };
     if (std::none_of(samples.begin(), samples.end(), touches)) return setUncertain(found.deepest.time);
     for (auto from = samples.begin(); (from = std::find_if(from, samples.end(), touches)) != samples.end();) {
       const auto after = std::find_if_not(from, samples.end(), touches);
@@ -59,37 +55,36 @@ class TimeSearch {
   }
 
  private:
-  Sample at(double time) const {
+  TimeSample at(double time) const {
     return {time, depth_.depthAt(time) > certain_ || surfaces_.crossingAt(time, result_.error.chord, memory_)};
   }
 
-  static void sort(std::vector<Sample>& samples) {
-    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+  static void sort(std::vector<TimeSample>& samples) {
+    std::sort(samples.begin(), samples.end(), [](const TimeSample& a, const TimeSample& b) {
       return a.time != b.time ? a.time < b.time : a.touches > b.touches;
     });
-    const auto isSame = [](const Sample& a, const Sample& b) { return a.time == b.time; };
+    const auto isSame = [](const TimeSample& a, const TimeSample& b) { return a.time == b.time; };
     samples.erase(std::unique(samples.begin(), samples.end(), isSame), samples.end());
   }
 
   /// The ends of steps, at most some dozens.
-  std::vector<Sample> samplesOfSteps() const {
+  void lookAtSteps(std::vector<TimeSample>& samples) const {
     constexpr std::size_t kMost = 64;
     const RelativeMotion& motion = surfaces_.motion();
-    std::vector<Sample> samples{at(start_), at(end_)};
+    samples.assign({at(start_), at(end_)});
     const std::size_t stride = (motion.steps() - 1) / kMost + 1;
     for (std::size_t step = stride; step < motion.steps(); step += stride)
       samples.push_back(at(motion.motion(step).t_start));
-    return samples;
   }
 
   /// The crossings nearest to the times at which they are not known to touch.
-  void addCrossings(std::vector<Sample>& samples) const {
+  void addCrossings(std::vector<TimeSample>& samples) const {
     const auto add = [&](double from, double to) {
       const auto touch = between(from, to);
       if (touch && touch->crossing) samples.push_back({*touch->crossing, true});
     };
     for (std::size_t i = samples.size() - 1; i > 0; --i) {
-      const Sample from = samples[i - 1], to = samples[i];
+      const TimeSample from = samples[i - 1], to = samples[i];
       if (!from.touches) add(from.time, to.time);
       if (!to.touches) add(to.time, from.time);
     }
@@ -97,11 +92,11 @@ class TimeSearch {
   }
 
   /// Between two times at which they touch.
-  void lookIntoGaps(std::vector<Sample>& samples) const {
+  void lookIntoGaps(std::vector<TimeSample>& samples) const {
     constexpr std::size_t kFew = 16;
     const int parts = samples.size() < kFew ? kParts : 2;
     for (std::size_t i = samples.size() - 1; i > 0; --i) {
-      const Sample from = samples[i - 1], to = samples[i];
+      const TimeSample from = samples[i - 1], to = samples[i];
       if (!from.touches || !to.touches || to.time - from.time < kShortestGap * (end_ - start_)) continue;
       for (int k = 1; k < parts; ++k) samples.push_back(at(from.time + (to.time - from.time) * k / parts));
     }
@@ -114,7 +109,7 @@ class TimeSearch {
 
   /// @param before, after  where they are not known to touch, nearest to the contact or, of the first and last one, at
   ///                       the ends of the motion; null if the contact reaches these ends.
-  void setInterval(const Sample* before, Interval contact, const Sample* after) {
+  void setInterval(const TimeSample* before, Interval contact, const TimeSample* after) {
     Interval begin{contact.enter, contact.enter}, end{contact.exit, contact.exit};
     if (before) {
       const auto touch = between(before->time, contact.enter);
@@ -150,6 +145,7 @@ class TimeSearch {
   const PairDepth& depth_;
   const double certain_;
   SeparationMemory& memory_;
+  std::vector<TimeSample>& samples_;
   PairResult& result_;
   const double start_, end_;
 };
@@ -157,8 +153,9 @@ class TimeSearch {
 }  // namespace
 
 void setContactTimes(SurfacePair& surfaces, const PairDepth& depth, const PairDepth::Found& found,
-                     const std::optional<ContactPoint>& crossing, SeparationMemory& memory, PairResult& result) {
-  TimeSearch(surfaces, depth, found.certain, memory, result).run(found, crossing);
+                     const std::optional<ContactPoint>& crossing, SeparationMemory& memory,
+                     std::vector<TimeSample>& samples, PairResult& result) {
+  TimeSearch(surfaces, depth, found.certain, memory, samples, result).run(found, crossing);
 }
 
 }  // namespace sdf_ccd

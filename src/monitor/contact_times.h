@@ -1,9 +1,18 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "pair_depth.h"
 #include "surface_pair.h"
 
 namespace sdf_ccd {
+
+/// A time at which a pair was looked at.
+struct TimeSample {
+  double time;   ///< [s]
+  bool touches;  ///< certainly
+};
 
 /// Sets when two bodies touch during a motion: the intervals of the result, and its first and last touch.
 ///
@@ -14,7 +23,9 @@ namespace sdf_ccd {
 /// times at which they touch are not told.
 /// @param surfaces, depth  must have the motion. @param found  of depth.
 /// @param crossing  of the surfaces, or a point of one body inside the other, if one is known.
+/// @param samples   scratch memory.
 void setContactTimes(SurfacePair& surfaces, const PairDepth& depth, const PairDepth::Found& found,
-                     const std::optional<ContactPoint>& crossing, SeparationMemory& memory, PairResult& result);
+                     const std::optional<ContactPoint>& crossing, SeparationMemory& memory,
+                     std::vector<TimeSample>& samples, PairResult& result);
 
 }  // namespace sdf_ccd

@@ -1,4 +1,4 @@
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,15 @@
 #include "scene_difference.h"
 
 namespace sdf_ccd {
+
+/// Groups of pairs that are tracked as one.
+struct ContactGroups {
+  std::vector<std::pair<std::string, std::string>> keys;  // per group: of its bodies, or body and map
+  std::vector<int> of_pair;                               // per pair of the scene
+  std::vector<int> begin;                                 // per group, plus one: first index in `pairs`
+  std::vector<int> pairs;                                 // group by group
+};
+
 namespace {
 
 using Time = std::chrono::nanoseconds;
@@ -44,9 +53,9 @@ std::string identityOf(const Body& body) {
   return body.map.empty() ? "b" + body.name : "m" + body.map;
 }
 
-ContactTracker::Groups groupsOf(const Scene& scene) {
+ContactGroups groupsOf(const Scene& scene) {
   const std::size_t count = scene.pairs.size();
-  ContactTracker::Groups groups;
+  ContactGroups groups;
   groups.of_pair.reserve(count);
   std::vector<std::string> key_of_body;
   key_of_body.reserve(scene.bodies.size());
@@ -72,27 +81,111 @@ ContactTracker::Groups groupsOf(const Scene& scene) {
 
 }  // namespace
 
-bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
-  const auto first = std::lower_bound(samples.begin(), samples.end(), interval.enter);
-  return first != samples.end() && *first <= interval.exit;
-}
+struct ContactTracker::Change {
+  ContactGroups groups;
+  std::vector<int> last, listed;
+  std::vector<int> groups_now;  // per present group: its index in the next world; -1 if it has none
+};
 
-ContactTracker::Change ContactTracker::prepare(const Scene& next) const {
-  Change change;
-  change.groups = groupsOf(next);
-  change.groups_now = findPairs(groups_.keys, change.groups.keys);
-  change.last.assign(change.groups.keys.size(), -1);
+struct ContactTracker::Impl {
+  explicit Impl(const ContactJoin& join) : join_(join) {}
+
+  struct Slot {
+    TrackedContact contact;
+    int group = -1;          // group of pairs; −1: free
+    bool is_open = false;    // it has not ended
+    bool was_apart = false;  // the bodies were farther apart than ContactJoin::distance after it
+    bool is_listed = false;
+    bool is_unreported = false;  // it ended with its world, after the last cycle
+    bool has_deepest = false;
+    bool deepest_is_certain = false;  // it is of a cycle in which the contact was certain
+    double max_depth = 0.0;           // upper bound of the depth of its points or, where refined, of all [m]
+    std::uint64_t cycle = 0;          // last cycle in which it was seen
+  };
+
+  struct TouchInterval {  // one interval of a pair in a cycle
+    int group;
+    double enter;  // [s]
+    int pair, interval;
+  };
+
+  void adopt(Change& change);
+  void update(const ObservedCycle& cycle);
+  void clearEvents();
+  void endAllAsLost();
+
+  static double exitOf(const CycleResult& result, const TouchInterval& touch);
+  void addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot);
+  void closeIfOver(const ObservedCycle& cycle, Slot& slot);
+  Slot& slotFor(std::size_t group, Time start, Time end);
+  Slot* endedEarlier(std::size_t group, Time start, Time end);
+  int freeSlot(Time start);
+  Time longestBreak(const Slot& slot) const { return slot.was_apart ? std::min(kJoin, join_.time) : join_.time; }
+  void close(Slot& slot, bool is_lost);
+  void list(int index);
+  void listUnreported();
+
+  ContactJoin join_;
+  ContactGroups groups_;
+  std::vector<int> last_;  // per group: slot of its last contact; −1: none
+  std::vector<Slot> slots_;
+  std::vector<int> free_;
+  std::vector<int> listed_;
+  std::vector<int> unreported_;         // to be listed with the next cycle
+  std::vector<TouchInterval> touches_;  // of the cycle
+  std::size_t open_ = 0;
+  std::uint64_t next_id_ = 1;
+  std::uint64_t cycle_ = 0;
+};
+
+ContactTracker::ContactTracker(const Scene& scene, const ContactJoin& join) : impl_(std::make_unique<Impl>(join)) {
+  adopt(scene);
+}
+ContactTracker::~ContactTracker() = default;
+
+std::shared_ptr<ContactTracker::Change> ContactTracker::prepare(const Scene& next) const {
+  auto change = std::make_shared<Change>();
+  change->groups = groupsOf(next);
+  change->groups_now = findPairs(impl_->groups_.keys, change->groups.keys);
+  change->last.assign(change->groups.keys.size(), -1);
   // At most one contact per group, and those that end with the present groups.
-  change.listed.reserve(change.groups.keys.size() + 2 * groups_.keys.size());
+  change->listed.reserve(change->groups.keys.size() + 2 * impl_->groups_.keys.size());
   return change;
 }
 
 void ContactTracker::adopt(const Scene& scene) {
-  Change change = prepare(scene);
-  adopt(change);
+  adopt(*prepare(scene));
 }
 
 void ContactTracker::adopt(Change& change) {
+  impl_->adopt(change);
+}
+
+void ContactTracker::update(const ObservedCycle& cycle) {
+  impl_->update(cycle);
+}
+
+void ContactTracker::clearEvents() {
+  impl_->clearEvents();
+}
+
+void ContactTracker::endAllAsLost() {
+  impl_->endAllAsLost();
+}
+
+std::size_t ContactTracker::size() const {
+  return impl_->listed_.size();
+}
+
+const TrackedContact& ContactTracker::operator[](std::size_t i) const {
+  return impl_->slots_[static_cast<std::size_t>(impl_->listed_[i])].contact;
+}
+
+std::size_t ContactTracker::open() const {
+  return impl_->open_;
+}
+
+void ContactTracker::Impl::adopt(Change& change) {
   change.listed.assign(listed_.begin(), listed_.end());
   listed_.swap(change.listed);
   for (std::size_t i = 0; i < slots_.size(); ++i) {
@@ -118,7 +211,7 @@ void ContactTracker::adopt(Change& change) {
   last_.swap(change.last);
 }
 
-void ContactTracker::clearEvents() {
+void ContactTracker::Impl::clearEvents() {
   for (const int index : listed_) {
     Slot& slot = slots_[index];
     slot.contact.begins = false;
@@ -134,30 +227,28 @@ void ContactTracker::clearEvents() {
   listed_.erase(std::remove_if(listed_.begin(), listed_.end(), isOver), listed_.end());
 }
 
-void ContactTracker::listUnreported() {
+void ContactTracker::Impl::listUnreported() {
   for (const int index : unreported_) slots_[index].is_unreported = false;
   listed_.insert(listed_.end(), unreported_.begin(), unreported_.end());
   unreported_.clear();
 }
 
-void ContactTracker::endAllAsLost() {
+void ContactTracker::Impl::endAllAsLost() {
   listUnreported();
   for (const int index : listed_) {
     if (slots_[index].is_open) close(slots_[index], true);
   }
   // Later contacts do not join these.
   std::fill(last_.begin(), last_.end(), -1);
-  for (const int index : listed_) {
-    slots_[index].group = -1;
-    slots_[index].is_unreported = false;
-  }
   free_.clear();
   for (std::size_t i = 0; i < slots_.size(); ++i) {
+    slots_[i].group = -1;
+    slots_[i].is_unreported = false;
     if (!slots_[i].is_listed) free_.push_back(static_cast<int>(i));
   }
 }
 
-void ContactTracker::update(const ObservedCycle& cycle) {
+void ContactTracker::Impl::update(const ObservedCycle& cycle) {
   clearEvents();
   listUnreported();
   ++cycle_;
@@ -186,11 +277,11 @@ void ContactTracker::update(const ObservedCycle& cycle) {
   }
 }
 
-double ContactTracker::exitOf(const CycleResult& result, const TouchInterval& touch) {
+double ContactTracker::Impl::exitOf(const CycleResult& result, const TouchInterval& touch) {
   return result.pairs[touch.pair].intervals[touch.interval].exit;
 }
 
-void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot) {
+void ContactTracker::Impl::addTouch(const ObservedCycle& cycle, const TouchInterval& touch, Slot& slot) {
   const PairResult& pair = cycle.result.pairs[touch.pair];
   const Interval& interval = pair.intervals[touch.interval];
   const Time start = cycle.origin + toTime(interval.enter), end = cycle.origin + toTime(interval.exit);
@@ -236,7 +327,7 @@ void ContactTracker::addTouch(const ObservedCycle& cycle, const TouchInterval& t
 }
 
 /// Ends the contact as lost if a pair of its group is not checked and none was seen to touch in this cycle.
-void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
+void ContactTracker::Impl::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
   const auto group = static_cast<std::size_t>(slot.group);
   bool is_delayed = false;
   bool is_apart = true;      // at that time, farther than a break of a contact allows
@@ -259,7 +350,7 @@ void ContactTracker::closeIfOver(const ObservedCycle& cycle, Slot& slot) {
 
 /// The contact of the times from `start` to `end`: the group's last one if they meet, otherwise a new one. It has ended
 /// if it lies before the last one.
-ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Time end) {
+ContactTracker::Impl::Slot& ContactTracker::Impl::slotFor(std::size_t group, Time start, Time end) {
   const bool is_earlier = last_[group] >= 0 && end + join_.time < slots_[last_[group]].contact.begin;
   if (last_[group] >= 0 && !is_earlier) {
     Slot& last = slots_[last_[group]];
@@ -276,14 +367,9 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
     if (last.is_open) close(last, false);
     if (!last.is_listed) free_.push_back(last_[group]);
   }
-  if (free_.empty()) {
-    free_.push_back(static_cast<int>(slots_.size()));
-    slots_.emplace_back();
-    free_.reserve(slots_.capacity());
-    unreported_.reserve(slots_.capacity());
-  }
-  const int index = free_.back();
-  free_.pop_back();
+  if (is_earlier)
+    if (Slot* const ended = endedEarlier(group, start, end)) return *ended;
+  const int index = freeSlot(start);
   if (!is_earlier) last_[group] = index;
   Slot& slot = slots_[index];
   TrackedContact& contact = slot.contact;
@@ -311,14 +397,48 @@ ContactTracker::Slot& ContactTracker::slotFor(std::size_t group, Time start, Tim
   return slot;
 }
 
-void ContactTracker::close(Slot& slot, bool is_lost) {
+/// A contact that ended before the group's last one began, and that the times from `start` to `end` meet: they have
+/// been checked again. It is listed once more. Null if there is none.
+ContactTracker::Impl::Slot* ContactTracker::Impl::endedEarlier(std::size_t group, Time start, Time end) {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    Slot& slot = slots_[i];
+    const TrackedContact& contact = slot.contact;
+    const bool meets = start <= contact.end + join_.time && contact.begin <= end + join_.time;
+    if (slot.group != static_cast<int>(group) || slot.is_open || contact.is_lost || !meets) continue;
+    const int index = static_cast<int>(i);
+    free_.erase(std::remove(free_.begin(), free_.end(), index), free_.end());
+    slot.contact.ends = true;
+    list(index);
+    return &slot;
+  }
+  return nullptr;
+}
+
+/// A slot whose contact ended so long ago that no cycle goes back to it.
+int ContactTracker::Impl::freeSlot(Time start) {
+  constexpr Time kRemembered = std::chrono::seconds(2);
+  const auto found = std::find_if(free_.begin(), free_.end(), [&](int index) {
+    return slots_[index].group < 0 || slots_[index].contact.end + kRemembered < start;
+  });
+  if (found != free_.end()) {
+    const int index = *found;
+    free_.erase(found);
+    return index;
+  }
+  slots_.emplace_back();
+  free_.reserve(slots_.capacity());
+  unreported_.reserve(slots_.capacity());
+  return static_cast<int>(slots_.size()) - 1;
+}
+
+void ContactTracker::Impl::close(Slot& slot, bool is_lost) {
   slot.is_open = false;
   slot.contact.ends = true;
   slot.contact.is_lost = is_lost;
   --open_;
 }
 
-void ContactTracker::list(int index) {
+void ContactTracker::Impl::list(int index) {
   if (slots_[index].is_listed) return;
   slots_[index].is_listed = true;
   listed_.push_back(index);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "mesh/triangle_tree.h"
 #include "pose_rounding.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

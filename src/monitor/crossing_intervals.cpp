@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "query/smooth_pieces.h"
+
 namespace sdf_ccd {
 namespace {
 

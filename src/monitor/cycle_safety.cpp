@@ -7,6 +7,7 @@
 
 #include "common/infinity.h"
 #include "common/number_text.h"
+#include "monitor/pair_traits.h"
 
 namespace sdf_ccd {
 namespace {
@@ -164,8 +165,7 @@ void setLimit(const CycleSafety& safety, const Scene& scene, const SafetyRules& 
   const auto add = [&](const char* format, const auto&... values) {
     fmt::format_to(std::back_inserter(text), format, values...);
   };
-  add("{} - {}: {} apart", scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name,
-      lengthText(pair.any.width));
+  add("{} - {}: {} apart", scene.bodies[pair.body_a].name, scene.bodies[pair.body_b].name, lengthText(pair.any.width));
   if (pair.any.width <= stop) return add(", within its stop distance of {}", lengthText(stop));
   if (is_measured) return add(", closed at {:.3g} m/s", pair.closing_speed);
   if (pair.closing_speed > 0.0) add(", closes at {:.3g} m/s", pair.closing_speed);

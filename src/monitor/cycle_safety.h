@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "monitor/pair_traits.h"
 #include "monitor/proximity.h"
 #include "sdf_ccd/distances.h"
-#include "sdf_ccd/velocity_scale.h"
 
 namespace sdf_ccd {
 

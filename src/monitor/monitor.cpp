@@ -4,14 +4,16 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/seconds_since.h"
+#include "monitor/monitor_memory.h"
+#include "monitor/shared_memory.h"
 #include "monitor_impl.h"
 #include "pair_result.h"
 #include "pair_times.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/cancel.h"
 #include "summarise.h"
 
 namespace sdf_ccd {

@@ -2,10 +2,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/cancel_point.h"
 #include "monitor_impl.h"
 #include "pair_result.h"
 #include "scene_difference.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

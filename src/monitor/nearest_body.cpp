@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/infinity.h"
+#include "monitor/nearest_body.h"
 #include "scene/mesh_distance.h"
 #include "scene/union_depth.h"
 

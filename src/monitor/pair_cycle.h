@@ -3,10 +3,11 @@
 #include <array>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "contact_collector.h"
+#include "contact_times.h"
 #include "pair_depth.h"
 #include "resting_answers.h"
-#include "sdf_ccd/cancel.h"
 #include "surface/separation.h"
 
 namespace sdf_ccd {
@@ -19,6 +20,7 @@ struct PairMemory {
   std::vector<RelativeMotionBounds> bounds;  ///< of the motion of SurfacePair
   SeparationMemory separation;
   PairDepth::Memory depth;
+  std::vector<TimeSample> samples;                                                      ///< of setContactTimes()
   CancelRequest::Clock::time_point deadline = CancelRequest::Clock::time_point::max();  ///< of all that is tested
 };
 

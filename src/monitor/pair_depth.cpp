@@ -10,6 +10,7 @@ namespace sdf_ccd {
 namespace {
 
 constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
+constexpr int kFewPieces = 2000;   // mostly suffice for a surface of which nothing is known
 
 std::shared_ptr<const DepthSolid> solidOf(const Body& body) {
   if (body.half_spaces.empty()) return body.triangles && !body.inside_is_doubtful ? body.solid : nullptr;
@@ -31,6 +32,10 @@ PairDepth::PairDepth(const Body& a, const Body& b, double resolution) {
   const bool a_is_larger = a.ball.radius > b.ball.radius;  // in the same order whichever of them is A
   addDirection(a_is_larger ? a : b, a_is_larger ? b : a, a_is_larger, resolution);
   addDirection(a_is_larger ? b : a, a_is_larger ? a : b, !a_is_larger, resolution);
+  // First the one that may be deeper: what a thin body can hold then mostly needs no search.
+  std::stable_sort(directions_.begin(), directions_.end(), [](const Direction& one, const Direction& other) {
+    return one.solid->greatestDepth() > other.solid->greatestDepth();
+  });
 }
 
 void PairDepth::addDirection(const Body& f, const Body& p, bool f_is_a, double resolution) {
@@ -67,9 +72,14 @@ double PairDepth::offer(const Place& place, std::size_t step, double s) {
 /// Searches over a part of the motion. @return upper bound of the depth of any point, if more than the deepest found
 /// [m].
 double PairDepth::search(const Interval& times) {
-  int pieces = kMaxPieces;
-  for (std::size_t step = 0; step < directions_.front().motion.steps(); ++step) {
+  int left = kMaxPieces;
+  const std::size_t steps = directions_.front().motion.steps();
+  for (std::size_t step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < directions_.size(); ++i) {
+      // Nothing is known of a surface without a search. The first step needs the most.
+      const int even = left / static_cast<int>((steps - step) * directions_.size() - i);
+      const int share = std::max(even, std::min(left, kFewPieces));
+      int pieces = share;
       Direction& direction = directions_[i];
       const TwoBodyMotion whole = direction.motion.motion(step);
       const double length = whole.t_end - whole.t_start;
@@ -83,11 +93,12 @@ double PairDepth::search(const Interval& times) {
       } else {
         const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
         const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
-        const double share = end - start;
-        direction.search.run({whole.t_start, whole.t_end, X_WF, X_WP, share * share * whole.acceleration}, travel,
-                             best_, pieces);
-        if (best_.depth > depth) best_.s = start + share * best_.s;
+        const double part = end - start;
+        direction.search.run({whole.t_start, whole.t_end, X_WF, X_WP, part * part * whole.acceleration}, travel, best_,
+                             pieces);
+        if (best_.depth > depth) best_.s = start + part * best_.s;
       }
+      left -= share - pieces;
       if (!(best_.depth > depth)) continue;
       best_direction_ = i;
       best_step_ = step;

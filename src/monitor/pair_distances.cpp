@@ -8,7 +8,7 @@
 #include "motion/two_body_motion.h"
 #include "scene/body_triangles.h"
 #include "scene/pair_bound.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 #include "surface/moving_boxes.h"
 #include "surface/plane_separation.h"
 #include "surface/separation.h"
@@ -43,7 +43,7 @@ struct PairDistances::Impl {
   const std::vector<PairDistance>& update(const CycleMotion& motion, const CycleResult& result, double range,
                                           const CycleRecord& record);
   void forget();
-  void take(Impl& before, const std::vector<int>& pairs_now);
+  void continueFrom(Impl& before, const std::vector<int>& pairs_now);
 
   static constexpr double kNotMeasured = -1.0;  // below any range
 
@@ -113,8 +113,8 @@ void PairDistances::forget() {
   impl_->forget();
 }
 
-void PairDistances::take(PairDistances& before, const std::vector<int>& pairs_now) {
-  impl_->take(*before.impl_, pairs_now);
+void PairDistances::continueFrom(PairDistances& before, const std::vector<int>& pairs_now) {
+  impl_->continueFrom(*before.impl_, pairs_now);
 }
 
 void PairDistances::Impl::forget() {
@@ -127,7 +127,7 @@ void PairDistances::Impl::forget() {
   is_empty_ = true;
 }
 
-void PairDistances::Impl::take(Impl& before, const std::vector<int>& pairs_now) {
+void PairDistances::Impl::continueFrom(Impl& before, const std::vector<int>& pairs_now) {
   near_.swap(before.near_);
   const auto isGone = [&](const PairDistance& near) { return pairs_now[near.pair] < 0; };
   near_.erase(std::remove_if(near_.begin(), near_.end(), isGone), near_.end());
@@ -182,8 +182,8 @@ void PairDistances::Impl::measure(std::size_t i, const CycleMotion& motion, cons
   found.body_a = result.body_a;
   found.body_b = result.body_b;
   found.is_with_map = !scene_->bodies[result.body_a].map.empty() || !scene_->bodies[result.body_b].map.empty();
-  found.is_constant =
-      !found.is_with_map && motion.X_WB[result.body_a].size() == 1 && motion.X_WB[result.body_b].size() == 1;
+  found.is_constant = record.single_pose_is_fixed && !found.is_with_map && motion.X_WB[result.body_a].size() == 1 &&
+                      motion.X_WB[result.body_b].size() == 1;
   found.time = motion.times[result.span.last];
   const bool touches = touchesAtEnd(result, found.time);
   const bool is_within = findNearest(i, X_WA, X_WB, range, found);

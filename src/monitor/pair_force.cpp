@@ -6,6 +6,7 @@
 #include "contact/role_weight.h"
 #include "pair_result.h"
 #include "scene/pair_bound.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -45,11 +45,15 @@ void PairMeasure::measure(const PairCycle& cycle, const std::optional<ContactPoi
   result.deepest = {};
   if (!crossing && !(found.deepest.depth > 0.0)) return;
   if (found.deepest.depth > found.certain) result.verdict = Verdict::kContact;
-  setContactTimes(surfaces, *depth_, found, crossing, cycle.memory.separation, result);
+  setContactTimes(surfaces, *depth_, found, crossing, cycle.memory.separation, cycle.memory.samples, result);
   result.deepest = found.deepest;
+  // A search that ended early says less than the bodies' sizes.
+  const double most = greatestDepth(surfaces, found.certain) - found.deepest.depth;
+  result.deepest.depth_error = std::min(result.deepest.depth_error, std::max(most, found.certain));
   if (!(found.deepest.depth > 0.0)) {
+    const double depth_error = result.deepest.depth_error;
     result.deepest = *crossing;
-    result.deepest.depth_error = found.deepest.depth_error;
+    result.deepest.depth_error = depth_error;
   }
   setTimes(result.intervals, result.deepest);
   result.peaks.push_back(result.deepest);

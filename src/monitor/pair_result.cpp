@@ -1,9 +1,12 @@
 #include "pair_result.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
+
+#include "query/smooth_pieces.h"
 
 namespace sdf_ccd {
 
@@ -86,6 +89,11 @@ void setTimes(std::vector<Interval>& intervals, ContactPoint& point) {
 void setNotChecked(const std::string& reason, PairResult& result) {
   result.verdict = Verdict::kNotChecked;
   result.reason = reason;
+}
+
+bool holdsSample(const Interval& interval, const std::vector<double>& samples) {
+  const auto first = std::lower_bound(samples.begin(), samples.end(), interval.enter);
+  return first != samples.end() && *first <= interval.exit;
 }
 
 }  // namespace sdf_ccd

@@ -40,4 +40,7 @@ void setTimes(std::vector<Interval>& intervals, ContactPoint& point);
 
 void setNotChecked(const std::string& reason, PairResult& result);
 
+/// Whether the interval contains one of the samples, which increase.
+bool holdsSample(const Interval& interval, const std::vector<double>& samples);
+
 }  // namespace sdf_ccd

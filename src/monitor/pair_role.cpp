@@ -1,6 +1,6 @@
 #include "pair_role.h"
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

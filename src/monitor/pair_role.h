@@ -5,6 +5,7 @@
 #include "monitored_body.h"
 #include "query/shell_query.h"
 #include "relative_motion.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

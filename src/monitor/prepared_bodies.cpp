@@ -8,6 +8,7 @@
 #include "scene/body_surface.h"
 #include "scene/body_triangles.h"
 #include "scene/build_body.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

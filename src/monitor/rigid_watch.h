@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "sdf_ccd/motion.h"
 #include "sdf_ccd/scene.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "query/worst_verdict.h"
 #include "sdf_ccd/body.h"
 #include "sdf_ccd/monitor.h"
 

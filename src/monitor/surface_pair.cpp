@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "motion/time_at.h"
 #include "pose_rounding.h"
 #include "scene/pair_bound.h"
-#include "sdf_ccd/cancel.h"
 #include "surface/plane_separation.h"
 
 namespace sdf_ccd {

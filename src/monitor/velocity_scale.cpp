@@ -1,7 +1,8 @@
-#include "sdf_ccd/velocity_scale.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "monitor/pair_traits.h"
+#include "sdf_ccd/distances.h"
 
 namespace sdf_ccd {
 namespace {
@@ -72,7 +73,7 @@ ScaleLimits velocityScales(const std::vector<PairDistance>& pairs, const std::ve
   const PairDistance *of_promised = nullptr, *of_measured = nullptr;
   for (const PairDistance& pair : pairs) {
     const PairTraits& of_pair = traitsOf(pair, traits);
-    const double age_of_pair = std::max(0.0, age - pair.time);
+    const double age_of_pair = std::max(age - pair.time, 0.0);  // NaN stays NaN
     const bool is_old = !(age_of_pair <= promise.max_age);
     if (!is_old && cannotChange(pair, of_pair)) continue;
     StoppingPromise kept = promise;

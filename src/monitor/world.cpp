@@ -7,13 +7,13 @@
 #include <set>
 #include <unordered_map>
 
+#include "common/cancel_point.h"
 #include "common/seconds_since.h"
 #include "prepared_bodies.h"
 #include "resting_answers.h"
 #include "scene/build_body.h"
 #include "scene/plan/scene_totals.h"
 #include "scene/plan/surface_needs.h"
-#include "sdf_ccd/cancel.h"
 #include "untestable_pairs.h"
 
 namespace sdf_ccd {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sdf_ccd/motion.h"
+#include "sdf_ccd/trajectory.h"
 #include "two_body_motion.h"
 
 namespace sdf_ccd {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
-#include "sdf_ccd/cancel.h"
+#include "motion/motion_sampling.h"
 #include "two_body_motion.h"
 
 namespace sdf_ccd {

@@ -4,8 +4,9 @@
 #include <functional>
 #include <vector>
 
+#include "motion/motion_sampling.h"
 #include "screw_motion.h"
-#include "sdf_ccd/motion.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

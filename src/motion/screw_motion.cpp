@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sdf_ccd/motion.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

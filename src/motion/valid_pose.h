@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "sdf_ccd/motion.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sdf_ccd/motion.h"
+#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sdf_ccd/field.h"
+#include "shell/point_shell.h"
+
 namespace sdf_ccd::precision {
 namespace {
 

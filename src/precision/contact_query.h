@@ -5,7 +5,7 @@
 #include "contact/penalty.h"
 #include "query/shell_query.h"
 #include "random_inputs.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 /// Moving shells against fields, for the studies of contact.

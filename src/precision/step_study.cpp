@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 
 #include "common/pi.h"
+#include "dynamics/collision_shape.h"
 #include "random_inputs.h"
 #include "sdf_ccd/simulation.h"
+#include "shell/point_shell.h"
 #include "studies.h"
 
 namespace sdf_ccd::precision {
@@ -26,14 +28,13 @@ RigidWorld pointOnGround(double zeta) {
   RigidBody ground, point;
   ground.name = "ground";
   ground.fixed = true;
-  ground.shape =
-      std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{}));
+  ground.shape = makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{});
   point.name = "point";
   point.mass = 1.0;
   point.inertia = Matrix3d::Identity();
   PointShell shell;
   shell.add(Vector3d::Zero(), -Vector3d::UnitZ(), 1.0F);
-  point.shape = std::make_shared<CollisionShape>(makeShape(shell));
+  point.shape = makeShape(shell);
   RigidWorld world;
   world.bodies = {ground, point};
   world.contact.stiffness_per = StiffnessPer::kPoint;

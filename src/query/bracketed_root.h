@@ -25,8 +25,8 @@ double bracketedRoot(const Function& f, double lo, double hi, bool rising) {
     if (hi - lo <= 1e-16 + 2e-16 * std::abs(t)) break;
     const double newton = t - at.value / at.slope;
     // Halve if Newton's step leaves the bracket (also when the slope is zero) or the bracket hardly shrinks.
-    const bool take = newton > lo && newton < hi && (i < 4 || hi - lo < 0.75 * before);
-    const double next = take ? newton : 0.5 * (lo + hi);
+    const bool use_newton = newton > lo && newton < hi && (i < 4 || hi - lo < 0.75 * before);
+    const double next = use_newton ? newton : 0.5 * (lo + hi);
     if (std::abs(next - t) <= 1e-16 + 1e-16 * std::abs(t)) return next;
     t = next;
   }

@@ -1,8 +1,8 @@
+#include "common/cancel_point.h"
+#include "query/smooth_pieces.h"
 #include "sdf_ccd/segments.h"
 
 #include <algorithm>
-
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

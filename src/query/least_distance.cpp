@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/infinity.h"
+#include "field/field_access.h"
 #include "field/uniform/sample_bracket.h"
 #include "field/uniform/sparse_grid.h"
 #include "query/cells/adaptive_walk.h"
@@ -34,7 +35,7 @@ class LeastSearch {
  public:
   LeastSearch(const DistanceField& field, const Segment& segment)
       : field_(field),
-        grid_(field.grid()),
+        grid_(FieldAccess::grid(field)),
         start_(segment.start),
         displacement_(segment.end - segment.start),
         length_(displacement_.norm()) {}
@@ -177,7 +178,7 @@ LeastDistance widened(LeastDistance least, double moved, const Segment& segment)
 
 LeastDistance leastDistance(const DistanceField& field, const Segment& segment) {
   requireWithinReach(segment, "least distance");
-  if (const AdaptiveGrid* adaptive = field.adaptive()) {
+  if (const AdaptiveGrid* adaptive = FieldAccess::adaptive(field)) {
     const LeastDistance least = leastInLeaves(*adaptive, segment);
     if (least.low <= field.band()) return widened(least, field.moved(), segment);
   }

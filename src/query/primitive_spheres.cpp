@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "common/lane_vector.h"
+#include "query/swept_side.h"
 
 namespace sdf_ccd {
 namespace {

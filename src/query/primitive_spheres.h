@@ -2,6 +2,7 @@
 
 #include "motion/chords.h"
 #include "query/lanes/sphere_lanes.h"
+#include "query/swept_side.h"
 #include "sdf_ccd/primitive.h"
 
 namespace sdf_ccd {

@@ -11,8 +11,9 @@
 #ifdef SDF_CCD_HIGHWAY
 #include "query/lanes/segment_lanes.h"
 #endif
+#include "common/cancel_point.h"
+#include "field/field_access.h"
 #include "representation_queries.h"
-#include "sdf_ccd/cancel.h"
 #include "segment_reach.h"
 
 namespace sdf_ccd {
@@ -158,8 +159,8 @@ void queryAll(const DistanceField& field, const Segment* segments, std::size_t c
     };
     queryInChunks(count, query, hits);
   };
-  if (const AdaptiveGrid* grid = field.adaptive()) return queryLanes(AdaptiveLanes(*grid, options.sigma));
-  if (const SparseGrid* grid = field.grid()) return queryLanes(UniformLanes(*grid, options.sigma));
+  if (const AdaptiveGrid* grid = FieldAccess::adaptive(field)) return queryLanes(AdaptiveLanes(*grid, options.sigma));
+  if (const SparseGrid* grid = FieldAccess::grid(field)) return queryLanes(UniformLanes(*grid, options.sigma));
 #endif
   const auto query = [&](std::size_t first, std::size_t last, Hits& found) {
     querySingly(field, segments, first, last, options, found);

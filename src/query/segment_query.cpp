@@ -6,6 +6,9 @@
 
 #include "common/infinity.h"
 #include "common/number_text.h"
+#include "field/field_access.h"
+#include "query/smooth_pieces.h"
+#include "query/swept_side.h"
 #include "representation_queries.h"
 #include "segment_reach.h"
 
@@ -24,10 +27,10 @@ void segmentIntervals(const DistanceField& field, const Segment& segment, const 
   checkIsovalue(field, options.sigma);
   if (const Primitive* primitive = field.primitive()) {
     primitiveIntervals(*primitive, segment, options, intervals);
-  } else if (const AdaptiveGrid* adaptive = field.adaptive()) {
+  } else if (const AdaptiveGrid* adaptive = FieldAccess::adaptive(field)) {
     adaptiveIntervals(*adaptive, segment, options, intervals);
   } else {
-    gridIntervals(*field.grid(), segment, options, intervals);
+    gridIntervals(*FieldAccess::grid(field), segment, options, intervals);
   }
   if (options.mode != SegmentMode::kAll && intervals.size() > 1) intervals.resize(1);
   if (stopsAtEnter(options.mode) && !intervals.empty()) intervals.front().exit = intervals.front().enter;
@@ -69,10 +72,10 @@ void smoothPieces(const DistanceField& field, const Segment& segment, const Inte
   breaks.clear();
   if (const Primitive* primitive = field.primitive()) {
     primitivePieces(*primitive, segment, interval, breaks);
-  } else if (const AdaptiveGrid* adaptive = field.adaptive()) {
+  } else if (const AdaptiveGrid* adaptive = FieldAccess::adaptive(field)) {
     adaptivePieces(*adaptive, segment, interval, breaks);
   } else {
-    gridPieces(*field.grid(), segment, interval, breaks);
+    gridPieces(*FieldAccess::grid(field), segment, interval, breaks);
   }
 }
 

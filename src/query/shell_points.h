@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sdf_ccd/segments.h"
+#include "shell/point_shell.h"
 #include "shell_query.h"
 
 namespace sdf_ccd {

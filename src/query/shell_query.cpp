@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "prefetch.h"
+#include "query/swept_side.h"
 #include "representation_queries.h"
-#include "sdf_ccd/cancel.h"
+#include "shell/point_shell.h"
 #include "shell_points.h"
 #include "sphere_sides.h"
 
@@ -69,7 +71,7 @@ class ShellSearch {
     work_.stack.pop_back();
     ++result_.nodes_visited;
     const BoundingBall ball = nodes_[i].ball();
-    take(i, sides_.of(ball.center, ball.radius));
+    visit(i, sides_.of(ball.center, ball.radius));
   }
 
   /// Tests the topmost nodes of the stack together.
@@ -83,10 +85,10 @@ class ShellSearch {
     group.size = 0;
     for (const std::int32_t i : tested) group.add(nodes_[i].center, nodes_[i].radius);
     sides_.testGroup();
-    for (std::size_t i = 0; i < count; ++i) take(tested[i], group.sideOf(static_cast<int>(i)));
+    for (std::size_t i = 0; i < count; ++i) visit(tested[i], group.sideOf(static_cast<int>(i)));
   }
 
-  void take(std::int32_t i, SweptSide side) {
+  void visit(std::int32_t i, SweptSide side) {
     const SphereTree::Node& node = nodes_[i];
     if (side == SweptSide::kOutside || node.begin == node.end) return;
     if (side == SweptSide::kInside) return addInside(node.begin, node.end, i);

@@ -5,7 +5,7 @@
 #include "motion/chords.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

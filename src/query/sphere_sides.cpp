@@ -1,5 +1,7 @@
 #include "sphere_sides.h"
 
+#include "field/field_access.h"
+#include "query/swept_side.h"
 #include "shell_points.h"
 
 namespace sdf_ccd {
@@ -26,10 +28,10 @@ struct SphereSides::Vectors {
     thread_local Vectors vectors;
     vectors.adaptive.reset();
     vectors.uniform.reset();
-    if (const AdaptiveGrid* grid = field.adaptive()) {
+    if (const AdaptiveGrid* grid = FieldAccess::adaptive(field)) {
       vectors.adaptive.emplace(*grid, 0.0);
-    } else if (field.grid()) {
-      vectors.uniform.emplace(*field.grid(), 0.0);
+    } else if (FieldAccess::grid(field)) {
+      vectors.uniform.emplace(*FieldAccess::grid(field), 0.0);
     } else {
       return nullptr;
     }

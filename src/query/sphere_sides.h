@@ -4,6 +4,7 @@
 
 #include "primitive_spheres.h"
 #include "query/lanes/sphere_lanes.h"
+#include "query/swept_side.h"
 
 namespace sdf_ccd {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "link_geometry.h"
-#include "sdf_ccd/cancel.h"
 #include "srdf_pairs.h"
 #include "urdf_geometry.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sdf_ccd/contact.h"
+#include "sdf_ccd/result.h"
 #include "sdf_ccd/robot.h"
 
 namespace sdf_ccd {

@@ -4,7 +4,9 @@
 
 #include "common/counted.h"
 #include "common/refuse.h"
+#include "motion/motion_sampling.h"
 #include "motion/screw_motion.h"
+#include "robot/planned_motion.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
 #include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {

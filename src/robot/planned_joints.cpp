@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "common/number_text.h"
+#include "robot/planned_motion.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

@@ -3,8 +3,10 @@
 #include <memory>
 #include <stdexcept>
 
+#include "motion/motion_sampling.h"
 #include "motion/screw_motion.h"
 #include "motion/validate_motion.h"
+#include "robot/planned_motion.h"
 #include "robot/trajectory_motion.h"
 
 namespace sdf_ccd {

@@ -14,6 +14,7 @@
 #include "joint_kind.h"
 #include "joint_motion.h"
 #include "motion/chain_derivatives.h"
+#include "robot/planned_motion.h"
 #include "urdf_geometry.h"
 
 namespace sdf_ccd {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "motion/sample_motion.h"
+#include "robot/planned_motion.h"
 #include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {

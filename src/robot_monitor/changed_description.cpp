@@ -4,11 +4,11 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/counted.h"
 #include "robot/joint_chain.h"
 #include "robot_monitor/changing_scene.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -1,4 +1,4 @@
-#include "sdf_ccd/check_motion.h"
+#include "robot_monitor/check_motion.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,10 +6,12 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "common/parallel_for.h"
 #include "monitor/join_results.h"
 #include "monitor/summarise.h"
+#include "robot/planned_motion.h"
 #include "robot_monitor/moved_pairs.h"
 
 namespace sdf_ccd {

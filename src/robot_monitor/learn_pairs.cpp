@@ -24,12 +24,12 @@ constexpr std::size_t kAlways = 1000;  // random states that decide Always: each
 
 /// Of each mesh once, for the first link that has it.
 void warnOfUnits(const SceneDescription& description, std::vector<std::string>& warnings) {
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (const BodyDescription& body : description.bodies) {
     for (const GeometryDescription& geometry : body.geometry) {
       const auto* mesh = std::get_if<std::shared_ptr<const TriangleMesh>>(&geometry.shape);
       const std::string hint = mesh ? unitHint(**mesh) : "";
-      if (hint.empty() || !told.insert(geometry.source + hint).second) continue;
+      if (hint.empty() || !reported.insert(geometry.source + hint).second) continue;
       warnings.push_back(body.name + ": " + geometry.source + ": " + hint);
     }
   }

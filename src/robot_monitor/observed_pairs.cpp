@@ -7,8 +7,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "common/cancel_point.h"
 #include "robot/joint_sampler.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -62,11 +62,11 @@ class States {
         size_(1 + recorded_ + observation.random_states) {}
 
   bool atEnd() const { return next_ == size_; }
-  std::size_t randomTaken() const { return next_ > 1 + recorded_ ? next_ - 1 - recorded_ : 0; }
+  std::size_t randomCount() const { return next_ > 1 + recorded_ ? next_ - 1 - recorded_ : 0; }
   double share() const { return double(next_) / double(size_); }
 
   /// The next states: most pairs that separate do so early, so the first are few.
-  std::vector<JointPositions> take() {
+  std::vector<JointPositions> nextStates() {
     constexpr std::size_t kFirst = 8, kMost = 256;
     const std::size_t count = next_ == 0 ? 1 : std::min(kMost, std::max(kFirst, 3 * next_));
     std::vector<JointPositions> states;
@@ -96,15 +96,15 @@ class Observer {
 
   std::vector<ObservedPair> observe() {
     States states(robot_, observation_);
-    observeRest(states.take().front());
+    observeRest(states.nextStates().front());
     while (!states.atEnd()) {
       checkCancelled();
       if (observation_.progress) observation_.progress(states.share());
       std::vector<std::size_t> open;
       for (std::size_t k = 0; k < pairs_.size(); ++k)
-        if (observation_.is_open(pairs_[k], observed_[k], states.randomTaken())) open.push_back(k);
+        if (observation_.is_open(pairs_[k], observed_[k], states.randomCount())) open.push_back(k);
       if (open.empty()) break;
-      observe(open, states.take());
+      observe(open, states.nextStates());
     }
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       ObservedPair& pair = observed_[k];

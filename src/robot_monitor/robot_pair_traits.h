@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "scene/pair_rules.h"
+#include "sdf_ccd/distances.h"
 #include "sdf_ccd/robot.h"
 #include "sdf_ccd/scene.h"
-#include "sdf_ccd/velocity_scale.h"
 
 namespace sdf_ccd {
 

@@ -4,9 +4,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "monitor/shared_memory.h"
 #include "motion/screw_motion.h"
 #include "motion/valid_pose.h"
 #include "robot/object_body.h"
+#include "robot/planned_motion.h"
 #include "robot/robot_files.h"
 #include "robot_monitor/overlapping_pairs.h"
 #include "robot_monitor/robot_scene_impl.h"

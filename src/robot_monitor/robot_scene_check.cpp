@@ -6,6 +6,8 @@
 
 #include "common/counted.h"
 #include "common/infinity.h"
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
 #include "robot_monitor/robot_scene_impl.h"
 
 namespace sdf_ccd {

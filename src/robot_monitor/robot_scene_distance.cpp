@@ -8,6 +8,7 @@
 
 #include "common/infinity.h"
 #include "common/number_text.h"
+#include "robot/planned_motion.h"
 #include "robot_monitor/robot_scene_impl.h"
 #include "scene/name_pair.h"
 #include "sdf_ccd/distances.h"

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "robot/plan_from_now.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "scene/pair_rules.h"
-#include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
 #include "sdf_ccd/scene.h"
 

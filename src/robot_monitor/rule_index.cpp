@@ -1,6 +1,6 @@
 #include "robot_monitor/rule_index.h"
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 namespace {

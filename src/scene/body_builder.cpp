@@ -9,6 +9,7 @@
 
 #include "common/number_text.h"
 #include "common/seconds_since.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "mesh/unit_hint.h"
 #include "motion/screw_motion.h"
@@ -17,6 +18,7 @@
 #include "scene/doubtful_surface.h"
 #include "scene/element_options.h"
 #include "shell/contact_gap.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd {
@@ -143,7 +145,7 @@ class BodyBuilder {
 
   /// Describes the caps that close an open mesh.
   void noteCaps(const GeometryDescription& geometry, const PooledMesh& mesh) {
-    const OpeningCaps* caps = mesh.field->openings();
+    const OpeningCaps* caps = FieldAccess::openings(*mesh.field);
     if (!caps) return;
     report_.warnings.push_back(geometry.source + ": openings closed by caps of " +
                                numberText(surfaceArea(caps->mesh())) + " m^2; CONTACT requires crossing surfaces");

@@ -1,5 +1,6 @@
 #include "body_options.h"
 #include "scene/error_budget.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 

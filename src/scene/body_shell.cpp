@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 #include "shell/contact_gap.h"
+#include "shell/point_shell.h"
 #include "shell/sampled_points.h"
 
 namespace sdf_ccd {

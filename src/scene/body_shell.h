@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sdf_ccd/body.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

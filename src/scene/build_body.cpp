@@ -11,6 +11,7 @@
 #include "scene/body_solid.h"
 #include "scene/body_triangles.h"
 #include "scene/geometry_keys.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -1,4 +1,5 @@
 #include "scene/element_options.h"
+#include "sdf_ccd/field.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,12 @@
 #include "coarsen.h"
 #include "common/number_text.h"
 #include "element_options.h"
+#include "field/build_field.h"
 #include "field/field_cache.h"
 #include "field/grid_cell.h"
 #include "field/machine_limit.h"
+#include "sdf_ccd/field.h"
+#include "shell/point_shell.h"
 #include "shell/shell_cache.h"
 
 namespace sdf_ccd {

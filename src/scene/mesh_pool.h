@@ -12,6 +12,7 @@
 #include "sdf_ccd/body.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/mesh.h"
+#include "shell/point_shell.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shell/contact_gap.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

@@ -27,8 +27,8 @@ struct PartExtent {
   }
 };
 
-/// Upper bound of the depth of a point in the union of a body's parts [m]: the way out of all of them along one of the
-/// body's axes, or along the normal of a half-space. 0 where that shows that it is outside.
+/// Upper bound of the depth of a point in the union of a body's parts [m]: the distance out of all of them along one of
+/// the body's axes, or along the normal of a half-space. 0 where that shows that it is outside.
 ///
 /// The depth below the surface of one part is no bound where parts meet, as its nearest surface may lie within another.
 /// @param extentOf  the PartExtent of part i of so many.

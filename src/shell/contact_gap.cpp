@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shell/point_shell.h"
+
 namespace sdf_ccd {
 
 double contactGap(const PointShell& a, const PointShell& b) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

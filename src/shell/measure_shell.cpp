@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "piece_walk.h"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "nearest_point.h"
-#include "sdf_ccd/cancel.h"
 #include "surface_piece.h"
 #include "voronoi_piece.h"
 
@@ -27,10 +27,11 @@ class PieceWalk {
         gather2_(kGather * kGather * scale2_) {}
 
   /// Calls visit(contested) for pieces that cover `whole`, each with at most kMaxCells candidates, whose normals do not
-  /// oppose `facing`. Before that, settle(contested) may finish a piece by returning true.
-  template <typename Settle, typename Visit>
-  void walk(const SurfacePiece& whole, const Vector3d& facing, Settle settle, Visit visit) {
-    forEachCompactPiece(whole, scale_, [&](const SurfacePiece& piece) { walkPiece(piece, facing, settle, visit); });
+  /// oppose `facing`. Before that, is_finished(contested) may finish a piece by returning true.
+  template <typename IsFinished, typename Visit>
+  void walk(const SurfacePiece& whole, const Vector3d& facing, IsFinished is_finished, Visit visit) {
+    forEachCompactPiece(whole, scale_,
+                        [&](const SurfacePiece& piece) { walkPiece(piece, facing, is_finished, visit); });
   }
 
  private:
@@ -46,8 +47,8 @@ class PieceWalk {
   /// small, if they differ by rounding only.
   static constexpr double kCoincident = 1e-9;
 
-  template <typename Settle, typename Visit>
-  void walkPiece(const SurfacePiece& whole, const Vector3d& facing, Settle& settle, Visit& visit) {
+  template <typename IsFinished, typename Visit>
+  void walkPiece(const SurfacePiece& whole, const Vector3d& facing, IsFinished& is_finished, Visit& visit) {
     stack_.assign(1, {whole, 0, 0});
     while (!stack_.empty()) {
       cancel_.check();
@@ -70,7 +71,7 @@ class PieceWalk {
       if (candidates_.size() - narrowed.begin > kMaxCells) mergeCoincident(narrowed.begin);
       narrowed.end = candidates_.size();
       ContestedPiece contested{current.piece, candidates_.data() + narrowed.begin, candidates_.data() + narrowed.end};
-      if (settle(contested)) continue;
+      if (is_finished(contested)) continue;
       if (contested.size() > kMaxCells && length2 > 1e-12 * scale2_) {
         halve(narrowed);
         continue;

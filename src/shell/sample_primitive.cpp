@@ -6,6 +6,8 @@
 
 #include "common/number_text.h"
 #include "edge_sampling.h"
+#include "sdf_ccd/field.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

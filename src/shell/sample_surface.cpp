@@ -9,6 +9,7 @@
 #include "common/number_text.h"
 #include "edge_sampling.h"
 #include "measure_shell.h"
+#include "shell/point_shell.h"
 #include "solid/solid_boundary.h"
 #include "surface_filler.h"
 #include "surface_piece.h"
@@ -137,7 +138,7 @@ SampledPoints samplePoints(const TriangleMesh& mesh, const ShellOptions& request
   filler.fillEdges(edges, sampling.radius);
   filler.throwDarts();
   filler.fillGaps();
-  SampledPoints shell = filler.take();
+  SampledPoints shell = filler.moveOut();
   const ShellMeasures measures = measureShell(surface, shell, options.spacing);
   shell.areas.assign(measures.areas.begin(), measures.areas.end());
   // Both are upper bounds: the filler guarantees the spacing, and the radius is measured.

@@ -2,8 +2,9 @@
 
 #include <cstdint>
 
+#include "sdf_ccd/field.h"
 #include "sdf_ccd/primitive.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

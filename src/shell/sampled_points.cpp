@@ -1,5 +1,7 @@
 #include "sampled_points.h"
 
+#include "shell/point_shell.h"
+
 namespace sdf_ccd {
 
 PointShell toShell(const SampledPoints& sampled) {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 

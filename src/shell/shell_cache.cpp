@@ -4,7 +4,8 @@
 #include <string>
 
 #include "mesh/content_hash.h"
-#include "sdf_ccd/shell.h"
+#include "sdf_ccd/field.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd {
 namespace {

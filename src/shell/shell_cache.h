@@ -2,6 +2,7 @@
 
 #include "common/files/file_cache.h"
 #include "sample_surface.h"
+#include "shell/point_shell.h"
 #include "solid/closed_solid.h"
 
 namespace sdf_ccd {

@@ -1,11 +1,10 @@
-#include "sdf_ccd/shell.h"
+#include "common/cancel_point.h"
+#include "shell/point_shell.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/number_text.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd {
 namespace {

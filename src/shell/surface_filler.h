@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/cancel_point.h"
 #include "flat_pieces.h"
 #include "point_grid.h"
 #include "sample_surface.h"
 #include "sampled_points.h"
-#include "sdf_ccd/cancel.h"
 #include "sdf_ccd/mesh.h"
 #include "surface_piece.h"
 
@@ -29,7 +29,7 @@ class SurfaceFiller {
   /// Halves triangles until one point covers each piece; adds a point wherever none does.
   void fillGaps();
 
-  SampledPoints take() { return std::move(shell_); }
+  SampledPoints moveOut() { return std::move(shell_); }
 
  private:
   [[noreturn]] void refuse() const;

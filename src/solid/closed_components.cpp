@@ -5,10 +5,10 @@
 #include <memory>
 #include <set>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "cut_test.h"
 #include "measured_patch.h"
-#include "sdf_ccd/cancel.h"
 #include "self_crossing.h"
 
 namespace sdf_ccd {

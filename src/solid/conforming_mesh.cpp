@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "common/cancel_point.h"
 #include "edge_search.h"
 #include "mesh/box_measures.h"
 #include "solid/openings/seams.h"

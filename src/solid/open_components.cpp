@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "common/pi.h"
 #include "mesh/triangle_tree.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

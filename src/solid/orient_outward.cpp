@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "closed_components.h"
+#include "common/cancel_point.h"
 #include "conforming_mesh.h"
 #include "hidden_walls.h"
 #include "mesh/corners.h"
 #include "mesh/duplicate_triangles.h"
 #include "mesh/mesh_patches.h"
 #include "open_components.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

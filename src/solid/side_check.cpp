@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/cancel_point.h"
 #include "mesh/binned_split.h"
 #include "mesh/point_numbers.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
+#include "mesh/triangle.h"
 
 namespace sdf_ccd {
 namespace {
@@ -150,9 +151,13 @@ class DepthSearch::Step {
         motion_(motion),
         travel_(travel),
         best_(best),
+        greatest_(search.solid_->greatestDepth()),
         X_GP_{poseOf(0.0), poseOf(0.5), poseOf(1.0)} {}
 
   bool isImproved() const { return improved_; }
+
+  /// Whether a piece was left out, so that the next search has to begin anew.
+  bool losesPieces() const { return loses_pieces_; }
 
   /// Pushes the boxes of a node over a part of the motion.
   void offerBoxes(int node_index, double start, double end) {
@@ -211,6 +216,7 @@ class DepthSearch::Step {
 
   /// Tightens a piece's bound and keeps the piece.
   void add(Piece piece) {
+    piece.bound = std::min(piece.bound, greatest_);
     if (!isDone(piece.bound)) piece.is_box ? measureBox(piece) : measure(piece);
     piece.step = search_.step_;
     search_.push(piece);
@@ -242,6 +248,13 @@ class DepthSearch::Step {
     const double length = piece.end - piece.start;
     const double beyond = motion_.acceleration * length * length / 8.0 + piece.radius;
     Bounds bounds(hull);
+    if (isWholeBall(piece) && solid_.radius() > 0.0) {
+      offerRound(piece, X_start, piece.start);
+      offerRound(piece, X_end, piece.end);
+      tighten(ballInBall(X_start * piece.corners[0], X_end * piece.corners[0], beyond - piece.radius, piece.radius),
+              piece);
+      return;
+    }
     for (const DepthPlane& plane : piece.planes) {
       if (!bounds.addPlane(plane)) continue;
       if (tighten(bounds.value() + beyond, piece)) return;
@@ -259,7 +272,10 @@ class DepthSearch::Step {
       addSide(there, center, bounds);
       if (!(bounds.value() < before - 0.1 * search_.resolution_)) break;
     }
-    if (isWholeBall(piece) && !tighten(bounds.value() + beyond, piece)) offerRound(piece, X_start);
+    if (isWholeBall(piece) && !tighten(bounds.value() + beyond, piece)) {
+      offerRound(piece, X_start, piece.start);
+      offerRound(piece, X_end, piece.end);
+    }
     bounds.copyPlanes(piece.planes);
   }
 
@@ -297,11 +313,19 @@ class DepthSearch::Step {
     return depth;
   }
 
-  /// Measures the point of a ball that is deepest in a solid that does not contain its centre, at the piece's start.
-  void offerRound(const Piece& piece, const Isometry3d& X_start) {
-    const Vector3d center = X_start * piece.corners[0];
+  /// Measures the point of a ball that is deepest in a solid that does not contain its centre, at a time.
+  void offerRound(const Piece& piece, const Isometry3d& X_GP, double s) {
+    const Vector3d center = X_GP * piece.corners[0];
     const Vector3d p_G = center - piece.radius * solid_.at(center, piece.nearest).out;
-    offer(solid_.at(p_G, piece.nearest), X_start.inverse() * p_G, p_G, piece.start);
+    offer(solid_.at(p_G, piece.nearest), X_GP.inverse() * p_G, p_G, s);
+  }
+
+  /// Upper bound of the depth of a ball's surface in a ball about the origin, along a path that deviates from its chord
+  /// by no more than `bend`: its nearest point to the origin is at the difference of the radius and the distance.
+  double ballInBall(const Vector3d& start, const Vector3d& end, double bend, double radius) const {
+    const double nearest = closestOnSegment(start, end, Vector3d::Zero()).norm() - bend;
+    const double farthest = std::max(start.norm(), end.norm()) + bend;
+    return solid_.radius() - std::max({0.0, nearest - radius, radius - farthest});
   }
 
   void offer(const PointDepth& depth, const Vector3d& p_P, const Vector3d& p_G, double s) {
@@ -322,11 +346,12 @@ class DepthSearch::Step {
       if (side > longest) edge = k;
       longest = std::max(longest, side);
     }
-    if (isWholeBall(piece) && displacement <= piece.radius) return divideBall(piece);
+    if (isWholeBall(piece) && displacement <= piece.radius && !(solid_.radius() > 0.0)) return divideBall(piece);
     // A resting point cannot be divided further.
     const bool is_short = length < 1e-9;
     if (longest == 0.0 && (displacement == 0.0 || is_short)) {
       search_.highest_ = std::max(search_.highest_, piece.bound);
+      loses_pieces_ = true;
       return;
     }
     Piece first = piece, second = piece;
@@ -386,7 +411,8 @@ class DepthSearch::Step {
   const TwoBodyMotion& motion_;
   const double travel_;
   DeepestPoint& best_;
-  bool improved_ = false;
+  const double greatest_;
+  bool improved_ = false, loses_pieces_ = false;
   const std::array<Isometry3d, 3> X_GP_;  // at the start, halfway and at the end
 };
 
@@ -435,10 +461,12 @@ DepthSearch::Piece DepthSearch::pop() {
 }
 
 bool DepthSearch::run(const TwoBodyMotion& motion, double travel, DeepestPoint& best, int& pieces) {
+  const bool is_new = !is_complete_;
+  if (is_new) restart();
   displaced_ += travel;
   const auto bound = [&] { return left_.empty() ? 0.0 : left_.front().key + displaced_; };
-  const bool is_new = !is_complete_ && left_.empty();
   is_complete_ = false;  // until the end: a search that is cancelled loses a piece
+  bool loses_pieces = false;
   ++step_;
   bool improved = false;
   if (is_new || bound() > best.depth + resolution_) {
@@ -450,9 +478,10 @@ bool DepthSearch::run(const TwoBodyMotion& motion, double travel, DeepestPoint& 
       step.examine(pop());
     }
     improved = step.isImproved();
+    loses_pieces = step.losesPieces();
   }
   highest_ = std::max(highest_, bound());
-  is_complete_ = true;
+  is_complete_ = !loses_pieces;
   return improved;
 }
 

@@ -64,6 +64,16 @@ PointDepth DepthSolid::at(const Vector3d& p, int likely) const {
   return depthIn(*mesh().solid, p, likely);
 }
 
+double DepthSolid::greatestDepth() const {
+  if (const auto* ball = std::get_if<Sphere>(&shape_)) return ball->radius;
+  return std::holds_alternative<HalfSpace>(shape_) ? kInfinity : 0.5 * mesh().box.sizes().minCoeff();
+}
+
+double DepthSolid::radius() const {
+  const auto* ball = std::get_if<Sphere>(&shape_);
+  return ball ? ball->radius : 0.0;
+}
+
 double DepthSolid::distanceBound(const Vector3d& p) const {
   const auto* of_mesh = std::get_if<Mesh>(&shape_);
   if (!of_mesh) return -at(p).depth;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -18,8 +19,9 @@ struct PointDepth {
   Vector3d out = Vector3d::Zero();  ///< unit: the outward normal at the nearest point of the surface
 };
 
-/// A plane that bounds depths: a point x of the solid within the ball is less deep than offset − normal·x, if the ball
-/// also contains the point of the plane in front of x.
+/// A plane that bounds depths: a point x within the ball is no deeper than offset − normal·x, if the ball also contains
+/// the ball about x that touches the plane. So depths of points in front of the plane are bounded as well, which are
+/// negative: what is nearer than the plane would lie in the ball.
 struct DepthPlane {
   Vector3d normal = Vector3d::Zero();  ///< unit
   double offset = 0.0;
@@ -29,7 +31,7 @@ struct DepthPlane {
   double depthBehind(const Vector3d& x) const { return offset - normal.dot(x); }
 
   bool holdsAt(const Vector3d& x) const {
-    return radius == kInfinity || (x - center).norm() + std::max(0.0, depthBehind(x)) <= radius;
+    return radius == kInfinity || (x - center).norm() + std::abs(depthBehind(x)) <= radius;
   }
 };
 
@@ -48,6 +50,12 @@ class DepthSolid {
 
   /// @param likely  a triangle that is probably near, or -1; it does not affect the depth.
   PointDepth at(const Vector3d& p, int likely = -1) const;
+
+  /// Upper bound of all depths [m]: no ball in the solid is larger.
+  double greatestDepth() const;
+
+  /// Of a ball; 0 for another solid [m].
+  double radius() const;
 
   /// Lower bound of the distance of a point, negative inside, where it takes no search; else −∞.
   double distanceBound(const Vector3d& p) const;

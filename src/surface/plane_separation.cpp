@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

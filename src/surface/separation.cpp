@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "hull_direction.h"
 #include "moving_boxes.h"
-#include "sdf_ccd/cancel.h"
 #include "triangle_pair.h"
 
 namespace sdf_ccd {

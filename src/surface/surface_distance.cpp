@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
 #include "moving_boxes.h"
-#include "sdf_ccd/cancel.h"
 #include "triangle_pair.h"
 
 namespace sdf_ccd {

@@ -14,7 +14,7 @@
 #include "resolution_options.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/mesh.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 #include "slice.h"
 #include "solid/openings/openings.h"
 #include "time_option.h"

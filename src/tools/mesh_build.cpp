@@ -13,7 +13,7 @@
 #include "output_file.h"
 #include "print.h"
 #include "scene/body_options.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::tools {

@@ -6,8 +6,10 @@
 
 #include "common/number_text.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::tools {
 
@@ -18,20 +20,20 @@ std::string describe(const AlignedBox3d& box) {
 std::string describe(const DistanceField& field) {
   const std::string accuracy = fmt::format("{}, error at most {:.3g} m within {:.3g} m of the surface",
                                            memoryText(double(field.bytes())), field.errorBound(), field.band());
-  if (const AdaptiveGrid* adaptive = field.adaptive()) {
+  if (const AdaptiveGrid* adaptive = FieldAccess::adaptive(field)) {
     const Vector3i size = adaptive->shape().size;
     return fmt::format("{}×{}×{} cells of {:.4g} m, divided into {} where needed, ", size.x(), size.y(), size.z(),
                        adaptive->shape().cell, field.cells()) +
            accuracy;
   }
-  const Vector3i cells = field.grid()->shape().cells();
+  const Vector3i cells = FieldAccess::grid(field)->shape().cells();
   return fmt::format("{}×{}×{} cells of {:.4g} m, {} of them stored, ", cells.x(), cells.y(), cells.z(),
-                     field.grid()->shape().cell, field.cells()) +
+                     FieldAccess::grid(field)->shape().cell, field.cells()) +
          accuracy;
 }
 
 std::string describeOpenings(const DistanceField& field) {
-  const OpeningCaps* caps = field.openings();
+  const OpeningCaps* caps = FieldAccess::openings(field);
   if (!caps) return "none";
   const double reach = *std::max_element(caps->reach().begin(), caps->reach().end());
   return fmt::format(

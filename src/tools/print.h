@@ -3,7 +3,7 @@
 #include <string>
 
 #include "sdf_ccd/field.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::tools {
 

@@ -15,6 +15,7 @@
 
 #include "commands.h"
 #include "common/number_text.h"
+#include "field/field_access.h"
 #include "mesh_field.h"
 #include "output_file.h"
 #include "print.h"
@@ -99,7 +100,7 @@ void writeImpacts(const DistanceField& field, const std::vector<Segment>& segmen
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (!impacts[i]) continue;
     // A point may be inside only because a cap closes an opening: no latest time and no minimum depth are known then.
-    const bool is_certain = !field.openings();
+    const bool is_certain = !FieldAccess::openings(field);
     const auto& [window, depth] = *impacts[i];
     out << i << ',' << cell(window.earliest) << ',' << cell(window.time) << ','
         << cell(is_certain ? window.latest : std::nullopt) << ','
@@ -125,7 +126,7 @@ void run(const QueryArguments& arguments) {
     throw std::invalid_argument("--sigma " + shortText(arguments.query.sigma) + " lies outside the field's band of " +
                                 shortText(field.band()) + " m");
   }
-  if (field.openings()) std::cerr << "warning: openings: " << describeOpenings(field) << std::endl;
+  if (FieldAccess::openings(field)) std::cerr << "warning: openings: " << describeOpenings(field) << std::endl;
   if (arguments.impact) {
     writeImpacts(field, segments, out.stream());
   } else {

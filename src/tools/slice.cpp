@@ -8,6 +8,7 @@
 
 #include "common/number_text.h"
 #include "common/read_number.h"
+#include "field/field_access.h"
 #include "field/opening_caps.h"
 #include "picture.h"
 #include "print.h"
@@ -88,7 +89,7 @@ void drawField(Picture& picture, const DistanceField& field, const Raster& raste
       picture.fill({kMargin + x, kMargin + y, 1, 1}, is_edge ? kGrey : colorOf(corners[i], band));
     }
   }
-  const OpeningCaps* caps = field.openings();
+  const OpeningCaps* caps = FieldAccess::openings(field);
   for (int y = 0; y < raster.height; ++y) {
     for (int x = 0; x < raster.width; ++x) {
       if (!crosses(corners, stride, std::size_t(y) * stride + x, 0.0)) continue;

@@ -1,10 +1,10 @@
-#include "sdf_ccd/cancel.h"
 
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 
 namespace sdf_ccd::cancel_test {

@@ -4,6 +4,7 @@
 
 #include "contact/curved_field.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field.h"
@@ -115,7 +116,7 @@ TEST(Penalty, DepthsOnTheFacesOfCellsHaveErrorsThatHold) {
   coarse.max_error = 0.001;
   coarse.cells.reset();
   const DistanceField field = buildField(boxMesh(half), coarse);
-  const AdaptiveShape& shape = field.adaptive()->shape();
+  const AdaptiveShape& shape = FieldAccess::adaptive(field)->shape();
   Random random(5);
   int jumps = 0;
   for (int i = 0; i < 20000; ++i) {

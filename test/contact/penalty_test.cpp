@@ -8,6 +8,7 @@
 
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::penalty_test {
 

@@ -10,6 +10,7 @@
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "oracle/rounds.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::point_groups_test {

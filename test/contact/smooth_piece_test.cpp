@@ -4,6 +4,7 @@
 
 #include "oracle/random.h"
 #include "oracle/shapes.h"
+#include "query/smooth_pieces.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "dynamics/collision_shape.h"
 #include "oracle/bodies.h"
 #include "oracle/persistent_contact.h"
 #include "oracle/random.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::integrator_test {
 
@@ -176,7 +178,7 @@ TEST(Integrator, ImplicitLetsPointsPassAnEdgeThatTheyGraze) {
   PointShell ends;
   ends.add({0, 0, 0}, -Vector3d::UnitZ(), 1.0F);
   ends.add({0.2, 0, 0}, -Vector3d::UnitZ(), 1.0F);
-  rod.shape = std::make_shared<CollisionShape>(makeShape(ends));
+  rod.shape = makeShape(ends);
   RigidWorld world;
   world.gravity.setZero();
   world.contact.stiffness = 1e9;

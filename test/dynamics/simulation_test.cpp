@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/infinity.h"
+#include "dynamics/collision_shape.h"
 #include "oracle/bodies.h"
 #include "oracle/failure.h"
 

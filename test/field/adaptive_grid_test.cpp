@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/field_access.h"
 #include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
 #include "mesh/triangle_tree.h"
@@ -106,7 +107,7 @@ double expectHonest(const DistanceField& field, const TriangleMesh& mesh, int co
 /// The error bound holds, and the largest error is not far below it.
 void expectBoundHolds(const TriangleMesh& mesh, double error) {
   const DistanceField field = buildField(mesh, maxError(error, 2.5 * error));
-  ASSERT_NE(field.adaptive(), nullptr);
+  ASSERT_NE(FieldAccess::adaptive(field), nullptr);
   EXPECT_EQ(field.errorBound(), error);
   const double largest = expectHonest(field, mesh, 20000);
   EXPECT_GT(largest, 0.2 * error);
@@ -155,7 +156,7 @@ TEST(AdaptiveGrid, BoundHoldsOnScans) {
 /// The error bound holds in all leaves, also where they extend beyond the band.
 void expectLeavesHold(const TriangleMesh& mesh, double error) {
   const DistanceField field = buildField(mesh, maxError(error));
-  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveGrid& grid = *FieldAccess::adaptive(field);
   const AdaptiveShape& shape = grid.shape();
   const TriangleTree tree(mesh);
   Random random(11);
@@ -191,7 +192,7 @@ TEST(AdaptiveGrid, LeavesHoldEdges) {
 /// @return the median of the leaves' bounds, relative to the grid's.
 double expectLeavesHonest(const TriangleMesh& mesh, double error, int leaves) {
   const DistanceField field = buildField(mesh, maxError(error));
-  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveGrid& grid = *FieldAccess::adaptive(field);
   const AdaptiveShape& shape = grid.shape();
   const TriangleTree tree(mesh);
   Random random(5);
@@ -242,11 +243,12 @@ TEST(AdaptiveGrid, DoesNotDependOnThreads) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const DistanceField single = buildField(mesh, maxError(0.001));
   ASSERT_EQ(many.bytes(), single.bytes());
-  for (std::size_t i = 0; i < many.adaptive()->arrays().leaves.size; ++i) {
-    ASSERT_EQ(many.adaptive()->arrays().leaves[i], single.adaptive()->arrays().leaves[i]);
+  for (std::size_t i = 0; i < FieldAccess::adaptive(many)->arrays().leaves.size; ++i) {
+    ASSERT_EQ(FieldAccess::adaptive(many)->arrays().leaves[i], FieldAccess::adaptive(single)->arrays().leaves[i]);
   }
-  for (std::size_t i = 0; i < many.adaptive()->leafCount(); ++i) {
-    ASSERT_EQ(many.adaptive()->arrays().leaf_errors[i], single.adaptive()->arrays().leaf_errors[i]);
+  for (std::size_t i = 0; i < FieldAccess::adaptive(many)->leafCount(); ++i) {
+    ASSERT_EQ(FieldAccess::adaptive(many)->arrays().leaf_errors[i],
+              FieldAccess::adaptive(single)->arrays().leaf_errors[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include "field/field_access.h"
 #include "field/grid_cell.h"
 #include "field/trilinear_cell.h"
 #include "field/uniform/sparse_grid.h"
@@ -43,7 +44,7 @@ void forEachSampled(const SparseGrid& grid, const Visit& visit) {
 
 TEST(DistanceField, SamplesAreExactAtGridPointsToTheirRounding) {
   const DistanceField field = boxField(40);
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   const GridShape& shape = grid.shape();
   double worst = 0.0;
   int seen = 0;
@@ -72,7 +73,7 @@ TEST(DistanceField, SixteenBitsHoldAnOpenMeshsDistances) {
   TriangleMesh open = test::boxMesh(kHalf);
   open.triangles.resize(10);
   const DistanceField field = buildField(open, cells(128));
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   double steepest = 0.0;  // per cell; a sample that overflowed would differ far more from its neighbours
   forEachSampled(grid, [&](const Vector3i& /*brick*/, std::int32_t slot) {
     for (int k = 0; k < GridShape::kSamples; ++k) {
@@ -109,7 +110,7 @@ double expectPlacesHonest(const TriangleMesh& mesh, const FieldOptions& options)
     EXPECT_LE(std::abs(at.value - exact), at.error + 1e-12) << p.transpose();
     EXPECT_EQ(field.interpolate(p).value, at.value);
     EXPECT_EQ(field.interpolate(p).gradient, at.gradient);
-    if (on_surface) bounds.push_back(at.error / field.grid()->shape().cell);
+    if (on_surface) bounds.push_back(at.error / FieldAccess::grid(field)->shape().cell);
   }
   std::nth_element(bounds.begin(), bounds.begin() + bounds.size() / 2, bounds.end());
   return bounds[bounds.size() / 2];
@@ -149,7 +150,7 @@ TEST(DistanceField, ErrorBoundHoldsEverywhereAndIsReached) {
       worst = std::max(worst, error);
       worst_share = std::max(worst_share, error / at.error);
     }
-    outside += !field.grid()->shape().box().contains(p);
+    outside += !FieldAccess::grid(field)->shape().box().contains(p);
   }
   EXPECT_GT(in_band, 10000);
   EXPECT_GT(outside, 10000);
@@ -191,7 +192,7 @@ TEST(DistanceField, ErrorShrinksWithTheCell) {
 
 TEST(DistanceField, GradientPointsOut) {
   const DistanceField field = boxField(64);
-  const double rounding = 2.0 * field.grid()->rounding() / field.grid()->shape().cell + 1e-5;
+  const double rounding = 2.0 * FieldAccess::grid(field)->rounding() / FieldAccess::grid(field)->shape().cell + 1e-5;
   EXPECT_TRUE(field.sample({0.301, 0.02, 0.03}).gradient.isApprox(Vector3d(1, 0, 0), rounding));
   EXPECT_TRUE(field.sample({0.0, -0.199, 0.0}).gradient.isApprox(Vector3d(0, -1, 0), rounding));
   Random random(3);
@@ -210,7 +211,7 @@ TEST(DistanceField, MaximumErrorIsKept) {
   EXPECT_GE(field.errorBound(), 0.004 * (1 - 1e-4));
   options.max_error.reset();
   options.cell_size = 0.01;
-  EXPECT_EQ(buildField(test::boxMesh(kHalf), options).grid()->shape().cell, 0.01);
+  EXPECT_EQ(FieldAccess::grid(buildField(test::boxMesh(kHalf), options))->shape().cell, 0.01);
 }
 
 TEST(DistanceField, BandIsAsWideAsAsked) {
@@ -231,8 +232,8 @@ TEST(DistanceField, BandIsAsWideAsAsked) {
 TEST(DistanceField, SparseFieldFollowsTheSurface) {
   // Twice the resolution needs four times as many cells near the surface, not eight times.
   const TriangleMesh mesh = test::icosphere(0.5, 4);
-  const auto coarse = buildField(mesh, cells(100)).grid()->storedCells();
-  const auto fine = buildField(mesh, cells(200)).grid()->storedCells();
+  const auto coarse = FieldAccess::grid(buildField(mesh, cells(100)))->storedCells();
+  const auto fine = FieldAccess::grid(buildField(mesh, cells(200)))->storedCells();
   EXPECT_GT(double(fine) / coarse, 3.0);
   EXPECT_LT(double(fine) / coarse, 5.0);
 }
@@ -241,7 +242,7 @@ TEST(DistanceField, SparseFieldFollowsTheSurface) {
 /// interpolated to σ. If samples are rounded, |v − σ| is reduced by the rounding of v and of the samples around it.
 TEST(DistanceField, NothingNearASampleIsInterpolatedToAnIsovalue) {
   const DistanceField field = boxField(40);
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   const GridShape& shape = grid.shape();
   Random random(8);
   int tried = 0;
@@ -270,7 +271,7 @@ TEST(DistanceField, SameForAnyNumberOfThreads) {
   const auto bytesOf = [&](int threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     const DistanceField field = buildField(mesh, cells(48));
-    const SparseGrid& g = *field.grid();
+    const SparseGrid& g = *FieldAccess::grid(field);
     std::vector<double> all(g.corners().data, g.corners().data + g.corners().size);
     all.insert(all.end(), g.samples().data, g.samples().data + g.samples().size);
     return all;
@@ -334,7 +335,7 @@ TEST(DistanceField, PrimitiveIsExact) {
   EXPECT_EQ(sphere.errorBound(), 0.0);
   EXPECT_DOUBLE_EQ(sphere.sample({2, 0, 0}).value, 1.5);
   EXPECT_DOUBLE_EQ(sphere.lowerBound({0, 0, 0.1}), -0.4);
-  EXPECT_EQ(sphere.grid(), nullptr);
+  EXPECT_EQ(FieldAccess::grid(sphere), nullptr);
   EXPECT_THROW(DistanceField(Primitive(Sphere{-1.0})), std::invalid_argument);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
@@ -60,7 +61,7 @@ TEST(EmptySphere, SpheresOfUniformGridsAreFreeOfSurface) {
   FieldOptions options;
   options.cells = 200;
   const DistanceField field = buildField(test::boxMesh(kHalf), options);
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   const GridShape& shape = grid.shape();
   const double side = GridShape::kBrick * shape.cell;
   Tally tally;
@@ -84,7 +85,7 @@ TEST(EmptySphere, BallsOfAdaptiveGridsAreFreeOfSurface) {
   FieldOptions options;
   options.max_error = 0.0005;
   const DistanceField field = buildField(test::boxMesh(kHalf), options);
-  const AdaptiveGrid& grid = *field.adaptive();
+  const AdaptiveGrid& grid = *FieldAccess::adaptive(field);
   const AdaptiveShape& shape = grid.shape();
   Tally tally;
   for (Vector3i c(0, 0, 0); c.z() < shape.size.z(); ++c.z())

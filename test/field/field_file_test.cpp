@@ -11,6 +11,7 @@
 
 #include "common/files/checked_file.h"
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/field_file_case.h"
 #include "field/opening_caps.h"
 #include "field/uniform/sparse_grid.h"
@@ -47,7 +48,8 @@ TEST_F(FieldFile, AdaptiveRoundTripIsExact) {
   const DistanceField loaded = loadField(path("a.field"));
   expectSame(field, loaded);
   for (std::size_t i = 0; i < field.cells(); ++i) {
-    ASSERT_EQ(field.adaptive()->arrays().leaf_errors[i], loaded.adaptive()->arrays().leaf_errors[i]);
+    ASSERT_EQ(FieldAccess::adaptive(field)->arrays().leaf_errors[i],
+              FieldAccess::adaptive(loaded)->arrays().leaf_errors[i]);
   }
 }
 
@@ -58,12 +60,12 @@ TEST_F(FieldFile, KeepsOpenings) {
     saveField(field, path("bin.field"));
     const DistanceField loaded = loadField(path("bin.field"));
     expectSame(field, loaded);
-    ASSERT_TRUE(field.openings() && loaded.openings());
-    EXPECT_EQ(loaded.openings()->mesh().vertices, field.openings()->mesh().vertices);
-    EXPECT_EQ(loaded.openings()->mesh().triangles, field.openings()->mesh().triangles);
-    EXPECT_EQ(loaded.openings()->reach(), field.openings()->reach());
+    ASSERT_TRUE(FieldAccess::openings(field) && FieldAccess::openings(loaded));
+    EXPECT_EQ(FieldAccess::openings(loaded)->mesh().vertices, FieldAccess::openings(field)->mesh().vertices);
+    EXPECT_EQ(FieldAccess::openings(loaded)->mesh().triangles, FieldAccess::openings(field)->mesh().triangles);
+    EXPECT_EQ(FieldAccess::openings(loaded)->reach(), FieldAccess::openings(field)->reach());
     saveField(buildField(mesh_, options), path("closed.field"));
-    EXPECT_FALSE(loadField(path("closed.field")).openings());
+    EXPECT_FALSE(loadField(path("closed.field")).hasOpenings());
   }
 }
 
@@ -79,7 +81,7 @@ TEST_F(FieldFile, BadOpeningsAreRefused) {
       return loadField(path("b.field"));
     };
     const auto put = [](auto value) { return [value](std::string& bytes) { test::put(value, 0, bytes); }; };
-    EXPECT_TRUE(loadWith(0, put(0.3)).openings());
+    EXPECT_TRUE(loadWith(0, put(0.3)).hasOpenings());
     for (const double x : {0.4, -1e300, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(0, put(x)), std::runtime_error);
     for (const std::int32_t i : {-1, 6, 1 << 30}) EXPECT_THROW(loadWith(1, put(i)), std::runtime_error) << i;
     for (const double x : {-1e-9, HUGE_VAL, std::nan("")}) EXPECT_THROW(loadWith(2, put(x)), std::runtime_error) << x;
@@ -127,7 +129,7 @@ TEST_F(FieldFile, BadStepsAreRefused) {
     });
     return loadField(path("b.field"));
   };
-  EXPECT_EQ(loadWith(1e-5).grid()->shape().step, 1e-5);
+  EXPECT_EQ(FieldAccess::grid(loadWith(1e-5))->shape().step, 1e-5);
   for (const double step : {0.0, -1e-5, std::nan(""), HUGE_VAL, 1e307, 1.0}) {
     EXPECT_THROW(loadWith(step), std::runtime_error) << step;
   }

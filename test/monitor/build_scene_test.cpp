@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <random>
 
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "oracle/files.h"
 #include "oracle/scene_case.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::build_scene_test {
 
@@ -43,9 +45,9 @@ TEST(BuildScene, EqualMeshesAreBuiltOnce) {
   const auto scene =
       build({body("left finger", meshShape(icosphere(0.05, 2))), body("right finger", meshShape(icosphere(0.05, 2))),
              body("thumb", meshShape(icosphere(0.06, 2)))});
-  const auto* left = scene->bodies[0].parts[0].field.grid();
-  EXPECT_EQ(left, scene->bodies[1].parts[0].field.grid());
-  EXPECT_NE(left, scene->bodies[2].parts[0].field.grid());
+  const auto* left = FieldAccess::grid(scene->bodies[0].parts[0].field);
+  EXPECT_EQ(left, FieldAccess::grid(scene->bodies[1].parts[0].field));
+  EXPECT_NE(left, FieldAccess::grid(scene->bodies[2].parts[0].field));
   EXPECT_EQ(scene->reports[1].field.text, "shared");
   EXPECT_EQ(scene->reports[1].field_bytes, 0u);
   EXPECT_GT(scene->reports[0].field_bytes, 0u);
@@ -67,7 +69,7 @@ TEST(BuildScene, AMapMayHaveCellsOfItsOwn) {
     BodyOptions options = fine();
     if (by_error) options.field = {{}, {}, 0.001};
     const auto scene = build({map, body("hand", meshShape(icosphere(0.1, 2)))}, options);
-    EXPECT_NEAR(scene->bodies[0].parts[0].field.grid()->shape().cell, 0.1, 1e-12);
+    EXPECT_NEAR(FieldAccess::grid(scene->bodies[0].parts[0].field)->shape().cell, 0.1, 1e-12);
     EXPECT_NEAR(scene->bodies[0].parts[0].field.errorBound(), 0.1 * std::sqrt(3.0) / 2.0, 1e-3);
   }
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cancel_moments.h"
+#include "common/cancel_point.h"
 #include "oracle/contact_case.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"

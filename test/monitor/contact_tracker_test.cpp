@@ -1,4 +1,4 @@
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 #include <gtest/gtest.h>
 

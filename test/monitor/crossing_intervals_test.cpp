@@ -4,7 +4,7 @@
 
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::crossing_intervals_test {
 

@@ -8,6 +8,7 @@
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/scene.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::forces_test {
 

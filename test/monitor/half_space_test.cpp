@@ -6,6 +6,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::half_space_test {
 

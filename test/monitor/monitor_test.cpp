@@ -11,6 +11,7 @@
 
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::monitor_test {
 

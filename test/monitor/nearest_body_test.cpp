@@ -5,6 +5,7 @@
 #include <random>
 
 #include "cancel_moments.h"
+#include "monitor/nearest_body.h"
 #include "oracle/open_shapes.h"
 #include "oracle/scene_case.h"
 

@@ -3,6 +3,7 @@
 #include "oracle/open_shapes.h"
 #include "oracle/scene_case.h"
 #include "scene/body_surface.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::open_mesh_test {
 

@@ -348,12 +348,12 @@ TEST_F(PairDistancesTest, WhatIsDelayedAndWasNotMeasuredIsUnknown) {
   std::vector<int> now(scene_->pairs.size());
   for (std::size_t p = 0; p < now.size(); ++p) now[p] = static_cast<int>(p);
   PairDistances same(scene_), other(scene_);
-  same.take(distances_, now);
+  same.continueFrom(distances_, now);
   result_ = monitor_.run(waits, {true, 3});
   same.update(waits, result_, kRange, {});
   EXPECT_FALSE(same.hasUnknown());
   now.back() = -1;  // another body replaces it
-  other.take(same, now);
+  other.continueFrom(same, now);
   other.update(waits, result_, kRange, {});
   EXPECT_TRUE(other.hasUnknown());
 }
@@ -365,14 +365,14 @@ TEST_F(PairDistancesTest, TwoScenesTakenOverInARowKeepIt) {
   std::vector<int> same(scene_->pairs.size());
   for (std::size_t p = 0; p < same.size(); ++p) same[p] = static_cast<int>(p);
   PairDistances next(scene_), last(scene_);
-  next.take(distances_, same);
-  last.take(next, same);
+  next.continueFrom(distances_, same);
+  last.continueFrom(next, same);
   const CycleMotion motion = delayed(*scene_, rest, 0.1);
   result_ = monitor_.run(motion, {true, 3});
   EXPECT_EQ(last.update(motion, result_, kRange, {}).size(), 1u);
   std::fill(same.begin(), same.end(), -1);  // no pair is kept
   PairDistances other(scene_);
-  other.take(last, same);
+  other.continueFrom(last, same);
   EXPECT_TRUE(other.update(motion, result_, kRange, {}).empty());
 }
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "oracle/drawn_meshes.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::pair_measure_test {
 
@@ -273,6 +275,24 @@ TEST(PairMeasure, OfBallsWhoseCentreIsInsideToo) {
   }
 }
 
+/// All of a ball that flies through a thin plate is as deep in the plate at some time; the plate is deeper in the ball.
+TEST(PairMeasure, OfWhatFliesThroughAThinPlateIsQuick) {
+  const auto scene = build(
+      {body("plate", Primitive(Box::fromSize({0.001, 2.0, 0.2}))), body("ball", Primitive(Sphere{0.05}))}, coarse());
+  Monitor monitor(scene, soft());
+  CycleRequest request;
+  request.wrenches = false;
+  const auto start = std::chrono::steady_clock::now();
+  const PairResult& pair = monitor
+                               .run(cycle(0.02, {still(Isometry3d::Identity()),
+                                                 {translation({-0.2, 0.013, 0}), translation({0.2, 0.013, 0})}}),
+                                    request)
+                               .pairs[0];
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.05);
+  EXPECT_NEAR(pair.deepest.depth, 0.05, pair.deepest.depth_error);
+  EXPECT_LT(pair.deepest.depth_error, 1e-4);
+}
+
 TEST(PairMeasure, BoundsOnlyTheContactWithTheDeepestPoint) {
   BodyDescription posts = body("posts", Primitive(Box::fromSize({0.06, 0.06, 0.2})));
   posts.geometry.push_back({Primitive(Box::fromSize({0.06, 0.06, 0.2})), translation({0.3, 0, 0}), "second"});
@@ -286,6 +306,16 @@ TEST(PairMeasure, BoundsOnlyTheContactWithTheDeepestPoint) {
   EXPECT_NEAR(tracker[0].deepest.depth, 0.0077, 1e-3);
   EXPECT_LT(tracker[0].deepest.depth_error, 1e-3);
   EXPECT_NEAR(tracker[1].deepest.depth, 0.0192, 2e-3);
+}
+
+/// Tori in nearly the same place have no few deepest places; a search that ends early has looked at both surfaces.
+TEST(PairMeasure, ASearchThatEndsEarlyKnowsBothSurfaces) {
+  const TriangleMesh torus = torusMesh(0.1, 0.02, 80, 25);
+  Monitor monitor(build({body("a", meshShape(torus)), body("b", meshShape(torus))}, optionsForContacts()), soft());
+  const Isometry3d X = translation({0, 0, 0.002});
+  const PairResult pair = monitor.run(cycle(0.01, {still(Isometry3d::Identity()), still(X)}), {}).pairs.front();
+  ASSERT_TRUE(pair.measured);
+  EXPECT_LT(pair.deepest.depth_error, 2e-3);
 }
 
 }  // namespace sdf_ccd::pair_measure_test

@@ -5,6 +5,7 @@
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "sdf_ccd/monitor.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::point_rounding_test {
 

@@ -3,12 +3,13 @@
 
 #include <chrono>
 
+#include "common/cancel_point.h"
 #include "common/seconds_since.h"
 #include "oracle/busy_machine.h"
 #include "oracle/hostile_meshes.h"
 #include "oracle/scene_case.h"
-#include "sdf_ccd/cancel.h"
 #include "sdf_ccd/scene.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::preparation_time_test {
 

@@ -10,7 +10,7 @@
 #include "oracle/busy_machine.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::time_limit_test {
 

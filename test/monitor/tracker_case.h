@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "monitor/summarise.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd::test {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 
+#include "monitor/nearest_body.h"
 #include "oracle/box_union.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"

@@ -1,4 +1,4 @@
-#include "sdf_ccd/velocity_scale.h"
+#include "sdf_ccd/distances.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "mesh/corners.h"
+#include "monitor/pair_traits.h"
 #include "oracle/random.h"
 #include "oracle/scene_case.h"
 #include "oracle/shapes.h"
@@ -242,6 +243,41 @@ TEST(VelocityScale, APairMayHaveItsOwnStopDistance) {
   EXPECT_EQ(limitOf({pairAt(0.45)}, traits, 0.0, 0.0, promise).scale, 0.0);
   EXPECT_GT(limitOf({pairAt(0.45)}, {}, 0.0, 0.0, promise).scale, 0.0);
   EXPECT_EQ(largestStopDistance(traits, 0.05), 0.4);
+}
+
+TEST(VelocityScale, WhatIsNotANumberIsOld) {
+  const StoppingPromise promise;
+  const double nan = std::nan("");
+  EXPECT_EQ(limitOf({pairAt(10.0)}, {}, 0.0, 0.0, promise).scale, 1.0);
+  EXPECT_EQ(limitOf({pairAt(10.0)}, {}, nan, 0.0, promise).scale, 0.0);
+  EXPECT_EQ(limitOf({pairAt(10.0)}, {}, 0.0, nan, promise).scale, 0.0);
+  EXPECT_EQ(limitOf({pairAt(nan)}, {}, 0.0, 0.0, promise).scale, 0.0);
+  EXPECT_EQ(limitOf({pairAt(10.0, nan)}, {}, 0.0, 0.0, promise).scale, 0.0);
+  PairDistance pair = pairAt(10.0);
+  pair.time = nan;
+  EXPECT_EQ(limitOf({pair}, {}, 0.0, 0.0, promise).scale, 0.0);
+  EXPECT_EQ(limitOf({pair}, ofOneOwnPair(), 0.0, 0.0, promise).scale, 0.0);
+}
+
+/// A robot that rests beside a wall may move in the next cycle.
+TEST(VelocityScale, WhatRestsInThisCycleIsNotFixed) {
+  const auto scene = test::build({test::body("hand", Primitive(Sphere{0.1})),
+                                  test::body("wall", Primitive(Box::fromSize({0.1, 1.0, 1.0})), true)});
+  Monitor monitor(scene, test::soft());
+  PairDistances distances(scene);
+  CycleMotion motion;
+  motion.times = {0.0, 0.1};
+  motion.X_WB = {{test::translation({0.2, 0.0, 0.0})}, {Isometry3d::Identity()}};  // 5 cm apart
+  const CycleResult& result = monitor.run(motion, {});
+  const StoppingPromise promise;
+  for (const bool is_fixed : {false, true}) {
+    CycleRecord record;
+    record.single_pose_is_fixed = is_fixed;
+    const std::vector<PairDistance>& near = distances.update(motion, result, 1.0, record);
+    ASSERT_EQ(near.size(), 1u);
+    EXPECT_EQ(near[0].is_constant, is_fixed);
+    EXPECT_EQ(limitOf(near, {}, 0.1, 0.1, promise).scale, is_fixed ? 1.0 : 0.0);
+  }
 }
 
 /// Two links of a robot that a program closes at C, by the scale; its data are old, and it obeys late.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "dynamics/collision_shape.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/simulation.h"
+#include "shell/point_shell.h"
 
 /// Rigid bodies for tests and studies.
 namespace sdf_ccd::test {
@@ -12,8 +14,7 @@ inline RigidBody groundBody() {
   RigidBody ground;
   ground.name = "ground";
   ground.fixed = true;
-  ground.shape =
-      std::make_shared<CollisionShape>(makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{}));
+  ground.shape = makeShape(Primitive(HalfSpace{Vector3d::UnitZ(), 0.0}), ShellOptions{});
   return ground;
 }
 
@@ -25,7 +26,7 @@ inline RigidBody pointBody(const std::string& name, double mass) {
   body.inertia = mass * Matrix3d::Identity();
   PointShell point;
   point.add(Vector3d::Zero(), -Vector3d::UnitZ(), 1.0F);
-  body.shape = std::make_shared<CollisionShape>(makeShape(point));
+  body.shape = makeShape(point);
   return body;
 }
 
@@ -37,7 +38,7 @@ inline RigidBody primitiveBody(const std::string& name, const Primitive& primiti
   body.inertia = mass.inertia;
   ShellOptions shell;
   shell.spacing = spacing;
-  body.shape = std::make_shared<CollisionShape>(makeShape(primitive, shell));
+  body.shape = makeShape(primitive, shell);
   return body;
 }
 
@@ -52,7 +53,7 @@ inline RigidBody meshBody(const std::string& name, const TriangleMesh& mesh, dou
   field.cells = cells;
   ShellOptions shell;
   shell.spacing = spacing;
-  body.shape = std::make_shared<CollisionShape>(makeShape(translated(mesh, -mass.center), field, shell));
+  body.shape = makeShape(translated(mesh, -mass.center), field, shell);
   return body;
 }
 

@@ -5,6 +5,7 @@
 
 #include "contact/penalty.h"
 #include "oracle/shapes.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::test {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "motion/screw_motion.h"
+#include "robot/planned_motion.h"
 #include "robot/trajectory_motion.h"
 
 /// Motions in long double, by their definitions, and the error of a sampled motion.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field.h"
 
@@ -46,7 +47,7 @@ DistanceField sampledFunction(const Function& f, const Vector3i& bricks, double 
   for (const double value : values) largest = std::max(largest, std::abs(value));
   shape.step = GridShape::stepFor(largest);
   for (const double value : values) data.samples.push_back(shape.inSteps(value));
-  return DistanceField(std::make_shared<const SparseGrid>(shape, std::move(data)));
+  return FieldAccess::make(std::make_shared<const SparseGrid>(shape, std::move(data)));
 }
 
 }  // namespace sdf_ccd::test

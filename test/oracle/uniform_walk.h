@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "field/adaptive/adaptive_grid.h"
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
@@ -22,10 +23,11 @@ struct Lattice {
 };
 
 inline Lattice latticeOf(const DistanceField& field) {
-  if (const AdaptiveGrid* grid = field.adaptive()) {
+  if (const AdaptiveGrid* grid = FieldAccess::adaptive(field)) {
     return {grid->shape().origin, grid->shape().unit(), grid->shape().units()};
   }
-  return {field.grid()->shape().origin, field.grid()->shape().cell, field.grid()->shape().cells()};
+  return {FieldAccess::grid(field)->shape().origin, FieldAccess::grid(field)->shape().cell,
+          FieldAccess::grid(field)->shape().cells()};
 }
 
 /// The cell that a unit cube belongs to.
@@ -37,12 +39,12 @@ struct LatticeCell {
 };
 
 inline LatticeCell latticeCell(const DistanceField& field, const Vector3i& c) {
-  if (const AdaptiveGrid* grid = field.adaptive()) {
+  if (const AdaptiveGrid* grid = FieldAccess::adaptive(field)) {
     const AdaptiveBlock block = grid->block(c);
     if (!block.leaf) return {block.low, block.side, false, {block.inside ? -1.0 : 1.0}};
     return {block.low, block.side, true, grid->corners(block)};
   }
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   const Vector3i brick = c / GridShape::kBrick;
   const std::int32_t slot = grid.slot(brick);
   if (slot == SparseGrid::kFar) return {c, 1, false, grid.brickCorners(brick)};

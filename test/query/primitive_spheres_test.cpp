@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
+#include "query/swept_side.h"
 
 namespace sdf_ccd::primitive_spheres_test {
 

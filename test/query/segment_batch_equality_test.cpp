@@ -12,6 +12,7 @@
 #include "query/lanes/segment_lanes.h"
 #endif
 
+#include "field/field_access.h"
 #include "oracle/random.h"
 #include "oracle/sampled_function.h"
 #include "query/batch_case.h"
@@ -63,7 +64,7 @@ double toFaces(const AlignedBox3d& box, const Vector3d& p) {
 void expectSame(const DistanceField& field, const Segment& s, const Intervals& exact, const Intervals& batch,
                 double sigma) {
   // Leaves of an adaptive field jump by up to twice the error where they meet, and single precision may cut a corner.
-  const double jump = field.adaptive() ? 2.0 * field.errorBound() : 0.0;
+  const double jump = FieldAccess::adaptive(field) ? 2.0 * field.errorBound() : 0.0;
   const double tolerance = jump + 2e-6 * field.box().sizes().maxCoeff();
   const auto covers = [](const Intervals& intervals, double t) {
     for (const Interval& i : intervals)
@@ -187,7 +188,7 @@ TEST(SegmentBatch, EqualsSingleQueriesOnNoise) {
 /// Samples of 16 bits are read two at a time, but never beyond the last one, where a mapped file may end.
 TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
   const DistanceField field = uniformTorus();
-  const SparseGrid& grid = *field.grid();
+  const SparseGrid& grid = *FieldAccess::grid(field);
   const std::size_t bytes = grid.samples().size * sizeof(std::int16_t);
   const std::size_t page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE)), pages = (bytes + page - 1) / page * page;
   char* memory =
@@ -196,7 +197,7 @@ TEST(SegmentBatch, ReadsNothingBeyondTheSamples) {
   ASSERT_EQ(mprotect(memory + pages, page, PROT_NONE), 0);
   std::memcpy(memory + pages - bytes, grid.samples().data, bytes);
   const View<std::int16_t> samples{reinterpret_cast<const std::int16_t*>(memory + pages - bytes), grid.samples().size};
-  const DistanceField at_end(std::make_shared<const SparseGrid>(
+  const DistanceField at_end = FieldAccess::make(std::make_shared<const SparseGrid>(
       grid.shape(), SparseGrid::Arrays{grid.corners(), grid.words(), samples}, grid.errorBound(), nullptr));
   EXPECT_GT(compare(at_end, randomSegments(field, 30000), 0.0).hits, 3000);
   // The last brick's last corner, from all sides.
@@ -233,8 +234,8 @@ TEST(SegmentBatch, FollowsEverySegmentToItsEnd) {
     }
   };
   for (const bool first_only : {true, false}) {
-    follow(AdaptiveLanes(*fine.adaptive(), 0.0), first_only);
-    follow(UniformLanes(*even.grid(), 0.0), first_only);
+    follow(AdaptiveLanes(*FieldAccess::adaptive(fine), 0.0), first_only);
+    follow(UniformLanes(*FieldAccess::grid(even), 0.0), first_only);
   }
 }
 

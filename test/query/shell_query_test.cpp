@@ -6,11 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::shell_query_test {
@@ -176,7 +178,8 @@ TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
     ends.push_back({at({0, 0, 1e3}), at({0, 0, -1e3})});
     ends.push_back({at({0, 0, 0.1}), at({0.4, 0, 0.1})});            // sphere slides along the plate's face
     ends.push_back({at({1e4, 1e4, 1e4}), at({1e4, 1e4, 1e4 + 1})});  // never near
-    const AlignedBox3d box = scene.field.grid() ? scene.field.grid()->shape().box() : scene.field.surfaceBox();
+    const AlignedBox3d box =
+        FieldAccess::grid(scene.field) ? FieldAccess::grid(scene.field)->shape().box() : scene.field.surfaceBox();
     for (int k = 0; k < 3; ++k) {  // along the grid's own boundary
       Vector3d a = box.min(), b = box.min();
       b[k] = box.max()[k];

@@ -6,6 +6,7 @@
 
 #include "oracle/random.h"
 #include "oracle/shapes.h"
+#include "query/swept_side.h"
 #include "sdf_ccd/field.h"
 
 namespace sdf_ccd::sphere_sides_test {

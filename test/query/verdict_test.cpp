@@ -1,5 +1,6 @@
 // The worst of several verdicts, whatever their numbers are; and that a zeroed one says nothing good.
 
+#include "query/worst_verdict.h"
 #include "sdf_ccd/result.h"
 
 #include <gtest/gtest.h>

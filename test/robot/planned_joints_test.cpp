@@ -7,6 +7,7 @@
 
 #include "oracle/failure.h"
 #include "oracle/random.h"
+#include "robot/planned_motion.h"
 
 namespace sdf_ccd::planned_joints_test {
 

@@ -4,6 +4,7 @@
 
 #include "oracle/random.h"
 #include "robot/joint_spline.h"
+#include "robot/planned_motion.h"
 #include "robot/trajectory_motion.h"
 
 namespace sdf_ccd::splined_trajectory_test {

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "motion/chain_derivatives.h"
+#include "motion/motion_sampling.h"
 #include "oracle/exact_motion.h"
 #include "oracle/failure.h"
+#include "robot/planned_motion.h"
 #include "robot/random_robot.h"
 
 namespace sdf_ccd::trajectory_motion_test {

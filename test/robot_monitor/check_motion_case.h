@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "sdf_ccd/body.h"
-#include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot.h"
 
 namespace sdf_ccd::test {

@@ -1,9 +1,10 @@
-#include "sdf_ccd/check_motion.h"
+#include "robot_monitor/check_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "robot/planned_motion.h"
 #include "robot_monitor/check_motion_case.h"
 #include "sdf_ccd/body.h"
 

@@ -5,6 +5,7 @@
 
 #include <tbb/global_control.h>
 
+#include "robot/planned_motion.h"
 #include "robot_monitor/check_motion_case.h"
 
 namespace sdf_ccd::check_motions_test {

@@ -6,7 +6,8 @@
 #include <string>
 
 #include "oracle/scene_case.h"
-#include "sdf_ccd/check_motion.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 
 namespace sdf_ccd::margin_test {
 

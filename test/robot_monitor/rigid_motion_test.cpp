@@ -1,6 +1,7 @@
 // Pairs that a scene leaves out because their bodies do not move relative to each other, along motions that move them.
 #include <gtest/gtest.h>
 
+#include "robot/planned_motion.h"
 #include "robot_monitor/check_motion_case.h"
 
 namespace sdf_ccd::rigid_motion_test {

@@ -12,7 +12,7 @@
 #include "oracle/random.h"
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
-#include "sdf_ccd/check_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/monitor.h"
 #include "sdf_ccd/robot.h"

@@ -7,11 +7,13 @@
 #include <stdexcept>
 #include <thread>
 
+#include "motion/motion_sampling.h"
 #include "oracle/files.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "robot_monitor/robot_scene_case.h"
 #include "scene/body_options.h"
 #include "scene/error_budget.h"
-#include "sdf_ccd/check_motion.h"
 
 namespace sdf_ccd::robot_scene_test {
 

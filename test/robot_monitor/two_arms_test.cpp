@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "oracle/random.h"
+#include "robot/planned_motion.h"
 #include "robot/trajectory_motion.h"
 #include "sdf_ccd/monitor.h"
 #include "sdf_ccd/robot.h"

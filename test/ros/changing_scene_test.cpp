@@ -244,6 +244,66 @@ TEST_F(ChangingSceneTest, AppendsShapesToAnObjectWhereItIs) {
   EXPECT_EQ(refusal(append), "box would have more than 3 shapes");
 }
 
+/// MoveIt's users give shapes in the header's frame; here they are in the object's.
+TEST_F(ChangingSceneTest, ShapesAreAppendedInNoOtherFrame) {
+  apply(box());
+  SceneChange append = box();
+  append.operation = SceneChange::APPEND;
+  append.pose = {};
+  append.header.frame_id = "belt";
+  EXPECT_EQ(
+      refusal(append),
+      "APPEND leaves box in the frame base, and its shapes are in the object's own: give no frame, instead of belt");
+  append.header.frame_id = "/base";
+  EXPECT_EQ(refusal(append), "");
+  EXPECT_EQ(body("box").geometry.size(), 2u);
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link_name = "tool";
+  apply(attach);
+  EXPECT_NE(refusal(append).find("in the frame tool"), std::string::npos) << refusal(append);
+  append.header.frame_id = "tool";
+  EXPECT_EQ(refusal(append), "");
+  EXPECT_EQ(body("box").frame, "tool");
+  EXPECT_EQ(body("box").geometry.size(), 3u);
+}
+
+TEST_F(ChangingSceneTest, WhatIsAppendedWrongLeavesAllAsItWas) {
+  SceneChange append = box();
+  append.operation = SceneChange::APPEND;
+  append.pose = {};
+  SceneChange attach = change(SceneChange::ATTACH);
+  attach.link_name = "tool";
+  apply({box(), append, append, attach, append});
+  ASSERT_EQ(body("box").geometry.size(), 4u);
+  EXPECT_EQ(body("box").frame, "tool");
+  std::vector<SceneChange> wrong(9, append);
+  wrong[0].primitive_poses.resize(1);  // of zeros
+  wrong[1].primitive_poses.resize(1);
+  wrong[1].primitive_poses[0].orientation.w = 1.0;
+  wrong[1].primitive_poses[0].position.y = std::nan("");
+  wrong[2].primitives[0].dimensions[2] = std::nan("");
+  wrong[3].pose.position.x = std::nan("");
+  wrong[4].id = "box/";
+  wrong[5].id = "octomap/0_0_0";
+  wrong[6].id = "*";
+  wrong[7].id = "tool";
+  wrong[8].primitive_poses.resize(2);
+  for (std::size_t i = 0; i < wrong.size(); ++i) {
+    EXPECT_NE(failureOf<std::exception>([&] {
+                apply({change(SceneChange::REMOVE, "table"), append, wrong[i]});
+              }),
+              "")
+        << i;
+    EXPECT_EQ(body("box").geometry.size(), 4u) << i;
+    EXPECT_EQ(body("table").geometry.size(), 1u) << i;
+  }
+  EXPECT_NE(failureOf<std::exception>([&] { apply({change(SceneChange::REMOVE), append}); }), "");
+  apply({append, change(SceneChange::REMOVE), box(), append});  // one after another
+  EXPECT_EQ(body("box").geometry.size(), 2u);
+  EXPECT_EQ(body("box").frame, "base");
+  EXPECT_FALSE(body("box").is_attached);
+}
+
 TEST_F(ChangingSceneTest, NamesHoldNoWildcards) {
   for (const char* name : {"*", "bo?", "a*"}) {
     EXPECT_NE(refusal(box(name)).find("must not contain * or ?"), std::string::npos) << name;

@@ -87,7 +87,8 @@ class Lifecycle(MasterCase):
         player.wait(PATIENCE)
         contacts = self.ended(self.contacts.messages)
         self.assertEqual(len({contact.id for contact in contacts}), len(contacts))  # each has its own
-        self.assertEqual(len({contact.begin.to_nsec() for contact in contacts}), 1)  # all the same
+        begins = [contact.begin.to_sec() for contact in contacts]
+        self.assertLess(max(begins) - min(begins), 1e-5)  # all the same
         self.assertTrue(any(m.reason == 'time has jumped' for m in self.states.messages))
 
     def test_4_a_publisher_that_dies_and_one_that_takes_its_place(self):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "robot_monitor/check_motion.h"
 #include "ros/messages/conversions.h"
 #include "sdf_ccd/ContactArray.h"
 #include "sdf_ccd/DistanceArray.h"
@@ -13,7 +14,6 @@
 #include "sdf_ccd/QueryPoints.h"
 #include "sdf_ccd/UpdateScene.h"
 #include "sdf_ccd/WaysOut.h"
-#include "sdf_ccd/check_motion.h"
 #include "sdf_ccd/robot_scene.h"
 #include "sdf_ccd/sdf_ccd.h"
 #define Verdict VerdictMessage

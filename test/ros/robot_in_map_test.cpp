@@ -54,7 +54,10 @@ TEST_F(RobotInMapTest, NoPoseIsKnownInAGapOfTransforms) {
 
 TEST_F(RobotInMapTest, WhatWasAttachedLaterWasElsewhere) {
   sendHand(100, 105);
-  const CheckedWorld world(world_->snapshot, {{"hand", ros::Time(103.0)}});
+  ChangingObject hand;
+  hand.link = "hand";
+  hand.attached_since = std::chrono::seconds(103);
+  const CheckedWorld world(world_->snapshot, {{"hand", hand}});
   for (const double stamp : {102.5, 103.5}) {
     RobotInMap robot(history_, "world", ros::Time(stamp), 1.5);
     robot.update(world);

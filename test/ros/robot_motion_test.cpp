@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "motion/screw_motion.h"
+#include "motion/motion_sampling.h"
 #include "oracle/failure.h"
+#include "robot/planned_motion.h"
 #include "ros/messages/conversions.h"
 
 namespace sdf_ccd::robot_motion_test {

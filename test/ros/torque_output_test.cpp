@@ -36,9 +36,13 @@ class TorqueOutputTest : public ::testing::Test {
         {Primitive(Box::fromSize({1.0, 0.2, 1.0})), Eigen::Translation3d(1.0, 0.195, 0.0) * Isometry3d::Identity()}};
     parameters.world.push_back(wall);
     described_ = describeScene(parameters, [](const std::string&) { return Resource(); });
-    const ScenePlan plan = planScene(described_.scene, planOptions(parameters.scene));
+    parameters_ = parameters;
+  }
+
+  void SetUp() override {
+    const ScenePlan plan = planScene(described_.scene, planOptions(parameters_.scene));
     loop_ =
-        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters.scene, {}), described_, parameters);
+        std::make_unique<MonitorLoop>(buildDescribed(described_, plan, parameters_.scene, {}), described_, parameters_);
   }
 
   /// @param late  how much older the arm's transforms are than the camera's [s].
@@ -47,6 +51,20 @@ class TorqueOutputTest : public ::testing::Test {
                                                          stampedTransform("boom", "ball", now - late, 1.0),
                                                          stampedTransform("base", "camera", now, -5.0)};
     loop_->history().add(message(sent), false);
+    loop_->step(ros::Time(now), {});
+  }
+
+  /// The boom turns at 2 rad/s, with the camera beyond its ball, which presses on it along the boom.
+  /// @param late  how much older the camera's transforms are than the arm's [s].
+  void turnedStep(double now, double late) {
+    const auto angleAt = [](double time) { return 0.6 + 2.0 * (time - 100.0); };
+    const double angle = angleAt(now - late);
+    const Quaterniond rotation(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+    loop_->history().add(
+        message(
+            {stampedTransform("base", "boom", now, 0.0, angleAt(now)), stampedTransform("boom", "ball", now, 1.0),
+             stampedTransform("base", "camera", ros::Time(now - late), rotation, rotation * Vector3d(1.19, 0.0, 0.0))}),
+        false);
     loop_->step(ros::Time(now), {});
   }
 
@@ -80,6 +98,7 @@ class TorqueOutputTest : public ::testing::Test {
     EXPECT_EQ(said.header.stamp, loop_->cycle().end);
   }
 
+  MonitorParameters parameters_;
   DescribedScene described_;
   std::unique_ptr<MonitorLoop> loop_;
 };
@@ -93,6 +112,23 @@ TEST_F(TorqueOutputTest, JointsWhoseTransformsAreOlderThanTheCyclesEndHaveTheirT
   for (int i = 0; i < 40; ++i) step(100.0 + 0.033 * i, 0.02);
   ASSERT_LT(loop_->cycle().complete_until, loop_->cycle().end);
   expectTorquesOfTheWall();
+}
+
+/// A push along the boom does not turn it, whenever it was checked.
+TEST_F(TorqueOutputTest, WhatIsCheckedLateActsOnTheArmAsItWasThen) {
+  for (const double late : {0.0, 0.1, 0.3}) {
+    SetUp();
+    for (int i = 0; i < 30; ++i) turnedStep(100.0 + 0.033 * i, late);
+    double force = 0.0;
+    for (const PairResult& pair : loop_->result().pairs)
+      if (pair.verdict == Verdict::kContact) force = pair.on_a_W.force.norm();
+    ASSERT_GT(force, 1.0) << late;
+    const sensor_msgs::JointState said = this->said();
+    for (std::size_t i = 0; i < said.name.size(); ++i)
+      if (said.name[i] != "other") {
+        EXPECT_LT(std::abs(said.effort[i]), 0.05 * force) << said.name[i] << " " << late;
+      }
+  }
 }
 
 }  // namespace sdf_ccd::torque_output_test

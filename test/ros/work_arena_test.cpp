@@ -10,6 +10,7 @@
 
 #include <tbb/global_control.h>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "ros/monitor/low_priority.h"
 

@@ -1,4 +1,5 @@
 #include "ros/monitor/work_turns.h"
+#include "common/cancel_point.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
-
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd::work_turns_test {
 

@@ -8,6 +8,7 @@
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "shell/contact_gap.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::body_shell_test {

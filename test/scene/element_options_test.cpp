@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/body_options.h"
+#include "sdf_ccd/field.h"
 
 namespace sdf_ccd::element_options_test {
 

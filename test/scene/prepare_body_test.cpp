@@ -11,6 +11,7 @@
 #include "scene/body_triangles.h"
 #include "scene/build_body.h"
 #include "sdf_ccd/sdf_ccd.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::prepare_body_test {
 

@@ -13,6 +13,7 @@
 #include "sdf_ccd/mesh.h"
 #include "sdf_ccd/primitive.h"
 #include "shell/flat_pieces.h"
+#include "shell/point_shell.h"
 #include "shell/sample_surface.h"
 
 namespace sdf_ccd::contact_gap_test {

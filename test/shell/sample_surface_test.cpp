@@ -12,6 +12,7 @@
 #include "oracle/shapes.h"
 #include "oracle/test_data.h"
 #include "sdf_ccd/mesh.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::sample_surface_test {
 

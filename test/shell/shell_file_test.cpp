@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 #include <cmath>
 #include <cstring>
@@ -12,6 +12,7 @@
 #include "oracle/files.h"
 #include "oracle/mended_file.h"
 #include "oracle/shapes.h"
+#include "sdf_ccd/field.h"
 #include "shell/shell_cache.h"
 
 namespace sdf_ccd::shell_file_test {

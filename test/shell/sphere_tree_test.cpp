@@ -1,4 +1,4 @@
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 #include <algorithm>
 #include <random>

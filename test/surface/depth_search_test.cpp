@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "oracle/box_union.h"
 #include "oracle/drawn_meshes.h"
 #include "oracle/long_screw.h"
 #include "oracle/random.h"
@@ -301,6 +302,29 @@ TEST(DepthSearch, OfABallIsWhereItFacesIn) {
   EXPECT_LE(0.002, found.point.depth + found.error + 1e-12);
   EXPECT_LE(found.error, 2e-5);
   EXPECT_NEAR((found.point.p_G - Vector3d(0.01, 0.005, 0.028)).norm(), 0.0, 1e-4);
+}
+
+/// A ball flies along a floor, 3 mm above it, into a wall that rises from it: nothing is near the middle of its path
+/// but the floor.
+TEST(DepthSearch, OfABallThatFliesAlongAFloorIntoAWall) {
+  constexpr double kRadius = 0.022, kHeight = 0.0252, kWay = 0.02, kDepth = 0.006;
+  const TriangleMesh corner = test::meshOf({test::boxAt({0.0, 0.0, -0.05}, {0.2, 0.2, 0.05}),
+                                            test::boxAt({0.1, 0.0, 0.05}, {0.1, 0.2, 0.05})});
+  const DepthSolid solid(std::make_shared<Solid>(corner), Isometry3d::Identity());
+  const BoxTree ball({RoundedTriangle{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}, kRadius}});
+  const ScrewMotion rest(Isometry3d::Identity(), Isometry3d::Identity());
+  const auto at = [&](double x) { return Isometry3d(Eigen::Translation3d(x, 0.013, kHeight)); };
+  const double end = kDepth - kRadius;
+  const ScrewMotion flight(at(end - kWay), at(end));
+  const RelativeMotionBounds bounds =
+      relativeMotionBounds(worldTwist(rest, {Vector3d::Zero(), 1.0}), worldTwist(flight, ball.ball()));
+  DepthSearch search(ball, solid, 5e-5);
+  search.begin(0.0);
+  DeepestPoint best;
+  int pieces = 20000;
+  search.run({0.0, 1.0, rest, flight, bounds.acceleration}, bounds.travel, best, pieces);
+  EXPECT_GE(std::max(best.depth, search.highest()), kDepth - 1e-9);
+  EXPECT_NEAR(best.depth, kDepth, 1e-4);
 }
 
 TEST(DepthSearch, OfPrimitivesIsExact) {

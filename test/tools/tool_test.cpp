@@ -7,7 +7,7 @@
 #include "oracle/drawn_meshes.h"
 #include "oracle/open_shapes.h"
 #include "sdf_ccd/field.h"
-#include "sdf_ccd/shell.h"
+#include "shell/point_shell.h"
 
 namespace sdf_ccd::tool_test {
 

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "cache_directory.h"
+#include "common/cancel_point.h"
 #include "common/files/descriptor.h"
 #include "common/number_text.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

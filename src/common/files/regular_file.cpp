@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "common/cancel_point.h"
 #include "common/files/descriptor.h"
 #include "common/files/linkless_path.h"
 #include "common/shown_text.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

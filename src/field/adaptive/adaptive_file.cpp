@@ -4,6 +4,7 @@
 
 #include "field/adaptive/adaptive_grid.h"
 #include "field/caps_file.h"
+#include "field/field_access.h"
 #include "field/grid_record.h"
 
 namespace sdf_ccd {
@@ -24,7 +25,7 @@ void saveAdaptive(const AdaptiveGrid& grid, const DistanceField& field, const st
   std::vector<FileSection> sections = {{&record, sizeof record},     sectionOf(arrays.top),    sectionOf(arrays.nodes),
                                        sectionOf(arrays.bases),      sectionOf(arrays.leaves), sectionOf(arrays.splits),
                                        sectionOf(arrays.leaf_errors)};
-  addCaps(field.openings(), sections);
+  addCaps(FieldAccess::openings(field), sections);
   addLost(lost, sections);
   writeCheckedFile(path, {kAdaptiveFileKind, kVersion, key}, sections);
 }
@@ -47,8 +48,8 @@ DistanceField loadAdaptive(const std::string& path, const std::string& key) {
   arrays.splits.data = file->section<SplitLeaves>(5, arrays.splits.size);
   arrays.leaf_errors.data = file->section<std::uint8_t>(6, arrays.leaf_errors.size);
   try {
-    return DistanceField(std::make_shared<const AdaptiveGrid>(shape, arrays, file),
-                         loadCaps(*file, 7, shape.surface_box), record->moved);
+    return FieldAccess::make(std::make_shared<const AdaptiveGrid>(shape, arrays, file),
+                             loadCaps(*file, 7, shape.surface_box), record->moved);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(path + ": damaged: " + error.what());
   }

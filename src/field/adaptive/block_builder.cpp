@@ -12,15 +12,15 @@ struct BlockBuilder::OctantLeaves {
   int tried = 0;
 };
 
-void BlockBuilder::build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellTaker& taker) const {
+void BlockBuilder::build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellSink& sink) const {
   const Block cells{kSide * block, kSide};
   const SpaceCube cube{center(cells), side()};
-  if (isFar(at_center.distance, cube.side)) return measureFar(cells, at_center, taker);
+  if (isFar(at_center.distance, cube.side)) return measureFar(cells, at_center, sink);
   const NearCube near(surface_, cube, at_center);
-  buildNear(cells, near.near(), taker);
+  buildNear(cells, near.near(), sink);
 }
 
-void BlockBuilder::measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const {
+void BlockBuilder::measureFar(const Block& block, SignedSurface::Nearest last, CellSink& sink) const {
   Vector3d last_point = center(block);
   for (int i = 0; i < block.side * block.side * block.side; ++i) {
     // Back and forth, so that each cell is adjacent to the last one.
@@ -31,25 +31,25 @@ void BlockBuilder::measureFar(const Block& block, SignedSurface::Nearest last, C
     const Vector3d point = center(Block{cell, 1});
     last = surface_.exact().next(point, last, (point - last_point).norm());
     last_point = point;
-    taker.takeDistance(index(cell), last.distance);
+    sink.addDistance(index(cell), last.distance);
   }
 }
 
-void BlockBuilder::buildNear(const Block& block, const NearTriangles& near, CellTaker& taker) const {
+void BlockBuilder::buildNear(const Block& block, const NearTriangles& near, CellSink& sink) const {
   NearOctants octants(near);
   for (int k = 0; k < 8; ++k) {
     const Block part = block.octant(k);
     if (!withinGrid(part.low)) continue;
     const bool far = isFar(octants.centerDistance(k), part.side * shape_.cell);
     if (part.side > 1 && far) {
-      measureFar(part, octants.nearest(k), taker);
+      measureFar(part, octants.nearest(k), sink);
     } else if (part.side > 1) {
-      buildNear(part, octants[k], taker);
+      buildNear(part, octants[k], sink);
     } else {
-      taker.takeDistance(index(part.low), octants.centerDistance(k));
+      sink.addDistance(index(part.low), octants.centerDistance(k));
       if (far) continue;
       CellFit fit(octants[k]);
-      taker.take(index(part.low), cell(fit, octants[k], 0, taker));
+      sink.add(index(part.low), cell(fit, octants[k], 0, sink));
     }
   }
 }
@@ -67,7 +67,7 @@ bool BlockBuilder::holdsFar(double center_distance, int depth) const {
   return node_code::steps(node_code::far(center_distance / AdaptiveGrid::farStepFor(parent, shape_.band))) != 0.0;
 }
 
-BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth, CellTaker& taker) const {
+BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth, CellSink& sink) const {
   cancel_.check();
   const double side = near.cube().side;
   BuiltCell built;
@@ -77,7 +77,7 @@ BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth,
     if (provedFar(scale, leaf->word, built.distance) && holdsFar(built.distance, depth)) return built;
     built.kind = BuiltCell::kLeaf;
     built.leaf = *leaf;
-    taker.count(sizeof(LeafWord) + sizeof(std::uint8_t));
+    sink.count(sizeof(LeafWord) + sizeof(std::uint8_t));
     return built;
   }
   const LeafScale half_scale = AdaptiveGrid::leafScaleFor(0.5 * side, shape_.band);
@@ -88,7 +88,7 @@ BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth,
     octants.leaf[k] = fit.octantLeaf(k, half_scale, error_);
     fits = fits && octants.leaf[k];
   }
-  if (!fits && !last) return divide(fit, near, depth, octants, taker);
+  if (!fits && !last) return divide(fit, near, depth, octants, sink);
   std::array<FittedLeaf, 8> split;
   for (int k = 0; k < 8; ++k) split[k] = octants.leaf[k] ? *octants.leaf[k] : fit.roundedLeaf(k, half_scale);
   const auto far = [&](const FittedLeaf& leaf) { return provedFar(half_scale, leaf.word, built.distance); };
@@ -96,12 +96,12 @@ BuiltCell BlockBuilder::cell(CellFit& fit, const NearTriangles& near, int depth,
   if (!fits) capped_ = true;
   built.kind = BuiltCell::kSplit;
   built.split = std::make_unique<std::array<FittedLeaf, 8>>(split);
-  taker.count(sizeof(SplitLeaves) + 8 * sizeof(std::uint8_t));
+  sink.count(sizeof(SplitLeaves) + 8 * sizeof(std::uint8_t));
   return built;
 }
 
 BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants,
-                               CellTaker& taker) const {
+                               CellSink& sink) const {
   BuiltCell built;
   built.kind = BuiltCell::kNode;
   built.children = std::make_unique<std::array<BuiltCell, 64>>();
@@ -113,7 +113,7 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
     if (half >= octants.tried && !isFar(distance, half_side)) leaf = fit.octantLeaf(half, half_scale, error_);
     const bool far = leaf && provedFar(half_scale, leaf->word, distance);
     if (leaf && !far) {
-      taker.count(sizeof(LeafWord) + sizeof(std::uint8_t));
+      sink.count(sizeof(LeafWord) + sizeof(std::uint8_t));
       for (int k = 0; k < 8; ++k) {
         BuiltCell& child = (*built.children)[childIndex(half, k)];
         child.kind = BuiltCell::kWide;
@@ -128,7 +128,7 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
       if (isFar(child.distance, child_side) || (far && holdsFar(child.distance, depth + 1))) continue;
       const NearTriangles& child_near = quarters[k];
       CellFit child_fit(child_near, fit, 2 * cubeCorner(half) + cubeCorner(k));
-      child = cell(child_fit, child_near, depth + 1, taker);
+      child = cell(child_fit, child_near, depth + 1, sink);
     }
   }
   const auto far = [&](const BuiltCell& child) {
@@ -139,7 +139,7 @@ BuiltCell BlockBuilder::divide(CellFit& fit, const NearTriangles& near, int dept
     built.distance = near.centerDistance();
     built.children.reset();
   } else {
-    taker.count(sizeof(AdaptiveNode) + sizeof(NodeBases));
+    sink.count(sizeof(AdaptiveNode) + sizeof(NodeBases));
   }
   return built;
 }

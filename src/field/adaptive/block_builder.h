@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "cell_fit.h"
+#include "common/cancel_point.h"
 #include "common/lattice.h"
 #include "field/adaptive/adaptive_grid.h"
 #include "field/cube_corner.h"
 #include "field/grid_cell.h"
 #include "field/near_octants.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 
@@ -32,16 +32,16 @@ inline int childIndex(int octant, int k) {
 }
 
 /// Receives the cells of a builder.
-class CellTaker {
+class CellSink {
  public:
-  virtual ~CellTaker() = default;
+  virtual ~CellSink() = default;
 
   /// Memory of the field [bytes].
   virtual void count(std::size_t bytes) = 0;
   /// A top cell's distance at its centre [m].
-  virtual void takeDistance(std::size_t index, double distance) = 0;
+  virtual void addDistance(std::size_t index, double distance) = 0;
   /// A top cell near the surface.
-  virtual void take(std::size_t index, BuiltCell&& cell) = 0;
+  virtual void add(std::size_t index, BuiltCell&& cell) = 0;
 };
 
 /// Builds the cells of an adaptive grid, in cubes of top cells that share a search for the triangles near them.
@@ -61,7 +61,7 @@ class BlockBuilder {
   double side() const { return kSide * shape_.cell; }
 
   /// May be called from several threads at once.
-  void build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellTaker& taker) const;
+  void build(const Vector3i& block, const SignedSurface::Nearest& at_center, CellSink& sink) const;
 
   /// Whether a leaf at the last depth could not be proved to meet the error bound.
   bool capped() const { return capped_; }
@@ -86,11 +86,11 @@ class BlockBuilder {
     return std::abs(center_distance) > shape_.band + kHalfSqrt3 * side * (1.0 + 1e-9);
   }
 
-  void buildNear(const Block& block, const NearTriangles& near, CellTaker& taker) const;
+  void buildNear(const Block& block, const NearTriangles& near, CellSink& sink) const;
   /// Measures the distances at the centres of cells that are all far; each search starts from the previous result.
-  void measureFar(const Block& block, SignedSurface::Nearest last, CellTaker& taker) const;
-  BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth, CellTaker& taker) const;
-  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants, CellTaker& taker) const;
+  void measureFar(const Block& block, SignedSurface::Nearest last, CellSink& sink) const;
+  BuiltCell cell(CellFit& fit, const NearTriangles& near, int depth, CellSink& sink) const;
+  BuiltCell divide(CellFit& fit, const NearTriangles& near, int depth, OctantLeaves& octants, CellSink& sink) const;
   /// Whether a proved leaf shows that |φ| exceeds the band in all of it, on the side where the cell's centre lies.
   bool provedFar(const LeafScale& scale, LeafWord leaf, double center_distance) const;
   /// Whether a far cell at this depth can store its side: the distance at its centre does not round to zero.

@@ -9,6 +9,7 @@
 #include "adaptive_shape.h"
 #include "block_builder.h"
 #include "built_cells.h"
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/parallel_for.h"
 #include "common/progress_counter.h"
@@ -32,7 +33,7 @@ class AdaptiveBuilder {
   AdaptiveGrid build(const Progress& progress);
 
  private:
-  class BlockTaker;
+  class BlockSink;
 
   /// Leaves of the last depth that are not proved have the error bound of any 1-Lipschitz function [m].
   static double unprovedError(const AdaptiveShape& shape) {
@@ -62,16 +63,16 @@ class AdaptiveBuilder {
   std::size_t leaf_count_ = 0;  ///< without those of splits
 };
 
-/// Takes the cells of one block.
-class AdaptiveBuilder::BlockTaker : public CellTaker {
+/// Receives the cells of one block.
+class AdaptiveBuilder::BlockSink : public CellSink {
  public:
-  explicit BlockTaker(AdaptiveBuilder& builder) : builder_(builder), writer_(builder.shape_, builder.capped_error_) {}
+  explicit BlockSink(AdaptiveBuilder& builder) : builder_(builder), writer_(builder.shape_, builder.capped_error_) {}
 
   void count(std::size_t bytes) override { builder_.count(bytes); }
-  void takeDistance(std::size_t index, double distance) override {
+  void addDistance(std::size_t index, double distance) override {
     builder_.centers_[index] = static_cast<float>(distance / builder_.shape_.cell);
   }
-  void take(std::size_t index, BuiltCell&& cell) override { writer_.add(index, std::move(cell)); }
+  void add(std::size_t index, BuiltCell&& cell) override { writer_.add(index, std::move(cell)); }
 
   std::unique_ptr<const BuiltCells> finish() { return writer_.finish(); }
 
@@ -108,9 +109,9 @@ void AdaptiveBuilder::buildBlocks(const Progress& progress) {
   built_.resize(nearest.size());
   parallelFor(std::size_t{0}, nearest.size(), [&](std::size_t k) {
     const std::size_t i = order[k];
-    BlockTaker taker(*this);
-    blocks_.build(blocks_.block(i), nearest[i], taker);
-    built_[i] = taker.finish();
+    BlockSink sink(*this);
+    blocks_.build(blocks_.block(i), nearest[i], sink);
+    built_[i] = sink.finish();
     ++done_;
     counter.add();
   });

@@ -46,7 +46,7 @@ CellFit::CellFit(const NearTriangles& near)
 
 CellFit::CellFit(const NearTriangles& near, CellFit& around, const Vector3i& part) : CellFit(near) {
   const Cube cube{kSteps / 4 * part, kSteps / 4};
-  around.take(cube, 1, near);
+  around.sample(cube, 1, near);
   for (int z = 0; z < 3; ++z)
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 3; ++x) {
@@ -60,7 +60,7 @@ NearOctants& CellFit::octants() {
   return *octants_;
 }
 
-void CellFit::take(const Cube& cube, int steps, const NearTriangles& near) {
+void CellFit::sample(const Cube& cube, int steps, const NearTriangles& near) {
   DistanceWriter<double> writer(near, values_.data());
   const int first = index(cube.low), step = cube.side / steps;
   for (int z = 0; z <= steps; ++z)
@@ -80,7 +80,7 @@ CellFit::CornerValues CellFit::cornersOf(const Cube& cube) const {
 CellFit::Lattice CellFit::latticeOf(const Cube& cube, const NearTriangles& near) {
   const int half = cube.side / 2;
   if (half % kKept != 0) return finestLattice(cube, near);
-  take(cube, 2, near);
+  sample(cube, 2, near);
   Lattice values;
   const double* const first = values_.data() + index(cube.low);
   for (int z = 0, i = 0; z < 3; ++z)
@@ -146,7 +146,7 @@ Deviation CellFit::deviationInParts(const Cube& cube, const NearTriangles& near,
 
 std::optional<FittedLeaf> CellFit::leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
                                         double max_deviation) {
-  take(cube, 1, near);
+  sample(cube, 1, near);
   const Vector3i middle = cube.low.array() + cube.side / 2;
   if (std::isnan(at(middle))) set(middle, near.centerDistance());
   CornerValues corners = cornersOf(cube);
@@ -180,7 +180,7 @@ std::optional<FittedLeaf> CellFit::octantLeaf(int k, const LeafScale& scale, dou
 
 FittedLeaf CellFit::roundedLeaf(int k, const LeafScale& scale) {
   const Cube cube = octantCube(k);
-  take(cube, 1, octants()[k]);
+  sample(cube, 1, octants()[k]);
   return {scale.encode(cornersOf(cube)), kHalfSqrt3 * step_ * cube.side + scale.rounding()};
 }
 

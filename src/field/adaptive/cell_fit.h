@@ -63,7 +63,7 @@ class CellFit {
   std::optional<FittedLeaf> leaf(const Cube& cube, const NearTriangles& near, const LeafScale& scale,
                                  double max_deviation);
   /// Computes the missing distances at the cube's points, steps + 1 along each side.
-  void take(const Cube& cube, int steps, const NearTriangles& near);
+  void sample(const Cube& cube, int steps, const NearTriangles& near);
   /// The distances at the corners of a cube, which must have been computed before.
   CornerValues cornersOf(const Cube& cube) const;
   /// The distances at the points of a cube.

@@ -96,12 +96,12 @@ void BrickSampler::setSigns(const Vector3i& brick, const Wanted& wanted, float* 
       samples[i] = sign * distance;
       if (!surface().closed()) continue;
       for (int axis = 0; axis < 3; ++axis)
-        for (const int way : {-1, 1}) {
-          const int next = local[axis] + way, k = i + way * kStrides[axis];
+        for (const int direction : {-1, 1}) {
+          const int next = local[axis] + direction, k = i + direction * kStrides[axis];
           if (next < 0 || next > GridShape::kBrick || !left[std::size_t(k)] || !(distance + samples[k] > apart))
             continue;
           left.reset(std::size_t(k));
-          pending.push_back(local + way * Vector3i::Unit(axis));
+          pending.push_back(local + direction * Vector3i::Unit(axis));
         }
     }
   });

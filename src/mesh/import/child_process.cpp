@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 namespace {

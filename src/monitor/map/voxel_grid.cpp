@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "mesh/octree_leaves.h"
-#include "sdf_ccd/cancel.h"
 #include "voxels_near.h"
 
 namespace sdf_ccd {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/parallel_for.h"
 #include "field/voxel_field.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

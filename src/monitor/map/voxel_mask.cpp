@@ -42,7 +42,7 @@ std::shared_ptr<const BodySurface> surfaceOf(const Body& body, const BodyDescrip
 /// doubtful.
 bool isInsideUncertain(const Body& body) {
   return body.doubtful || std::any_of(body.parts.begin(), body.parts.end(),
-                                      [](const BodyPart& part) { return part.field.openings() != nullptr; });
+                                      [](const BodyPart& part) { return part.field.hasOpenings(); });
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 #include "voxels_near.h"
 
 namespace sdf_ccd {

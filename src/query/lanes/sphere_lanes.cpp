@@ -11,6 +11,7 @@
 
 #include "lane_adaptive-inl.h"
 #include "lane_uniform-inl.h"
+#include "query/swept_side.h"
 #include "sphere_lanes.h"
 
 HWY_BEFORE_NAMESPACE();

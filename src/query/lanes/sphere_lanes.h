@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "motion/chords.h"
+#include "query/swept_side.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
 #include "segment_lanes.h"

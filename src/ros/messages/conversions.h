@@ -14,7 +14,6 @@
 #include "sdf_ccd/Contact.h"
 #include "sdf_ccd/ErrorBound.h"
 #include "sdf_ccd/PairContact.h"
-#include "sdf_ccd/contacts.h"
 #include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "query/worst_verdict.h"
+
 namespace sdf_ccd {
 
 void PairStates::update(const CycleResult& result, const CycleContext& cycle) {

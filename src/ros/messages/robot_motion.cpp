@@ -6,6 +6,8 @@
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "common/refuse.h"
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
 #include "ros/messages/conversions.h"
 #include "ros/tf/seconds_between.h"
 

@@ -2,7 +2,9 @@
 
 #include <string>
 
+#include "motion/motion_sampling.h"
 #include "robot/plan_from_now.h"
+#include "robot/planned_motion.h"
 #include "sdf_ccd/RobotMotion.h"
 #include "sdf_ccd/scene.h"
 

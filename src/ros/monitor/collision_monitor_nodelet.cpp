@@ -7,13 +7,13 @@
 #include <ros/package.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "common/cancel_point.h"
 #include "common/counted.h"
 #include "common/number_text.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
 #include "ros/monitor/map_distances.h"
 #include "scene/geometry_keys.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

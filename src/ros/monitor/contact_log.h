@@ -6,7 +6,7 @@
 
 #include <ros/time.h>
 
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 

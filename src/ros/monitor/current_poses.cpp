@@ -4,6 +4,7 @@
 
 #include "common/number_text.h"
 #include "motion/two_body_motion.h"
+#include "robot/planned_motion.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {

@@ -8,12 +8,12 @@
 
 #include <ros/console.h>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "ros/monitor/low_priority.h"
 #include "ros/tf/tf_tracker.h"
 #include "scene/body_builder.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <ros/console.h>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "common/shown_text.h"
@@ -14,7 +15,6 @@
 #include "ros/monitor/low_priority.h"
 #include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -122,8 +122,8 @@ void MonitorLoop::adopt(LoopChange& change) {
   change.tracker->continueFrom(*tracker_, difference.bodiesBefore(), change.pairs_before);
   tracker_.swap(change.tracker);
   rigid_guard_.swap(change.rigid_guard);
-  contacts_.adopt(change.contacts);
-  change.distances->take(*distances_, difference.pairsNow());
+  contacts_.adopt(*change.contacts);
+  change.distances->continueFrom(*distances_, difference.pairsNow());
   distances_.swap(change.distances);
   setOverlaps(change.overlaps);
   traits_.swap(change.traits);
@@ -236,7 +236,7 @@ std::string MonitorLoop::movingFixedFrame() const {
 }
 
 const std::vector<PairDistance>& MonitorLoop::measureDistances(double range) {
-  return distances_->update(cycle_.motion, *result_, range, {sinceEpoch(cycle_.origin), &cycle_.gaps});
+  return distances_->update(cycle_.motion, *result_, range, {sinceEpoch(cycle_.origin), &cycle_.gaps, true});
 }
 
 void MonitorLoop::reset() {

@@ -8,8 +8,8 @@
 #include "ros/parameters/parameters.h"
 #include "ros/world/checked_world.h"
 #include "ros/world/describe_scene.h"
-#include "sdf_ccd/contacts.h"
 #include "sdf_ccd/distances.h"
+#include "sdf_ccd/monitor.h"
 
 namespace sdf_ccd {
 
@@ -21,7 +21,7 @@ struct LoopChange {
   std::unique_ptr<TfTracker> tracker;
   std::vector<int> pairs_before;  ///< per pair, checked or watched: see TfTracker::continueFrom()
   std::unique_ptr<RigidGuard> rigid_guard;
-  ContactTracker::Change contacts;
+  std::shared_ptr<ContactTracker::Change> contacts;
   std::unique_ptr<PairDistances> distances;
   std::vector<PairTraits> traits;  ///< per pair
   std::vector<std::uint32_t> pairs_of_bodies;

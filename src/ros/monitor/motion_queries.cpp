@@ -6,15 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "common/cancel_point.h"
 #include "common/counted.h"
 #include "common/seconds_since.h"
 #include "monitor/pair_times.h"
+#include "motion/motion_sampling.h"
+#include "robot/planned_motion.h"
+#include "robot_monitor/check_motion.h"
 #include "ros/messages/planned_markers.h"
 #include "ros/monitor/current_poses.h"
 #include "ros/monitor/queries.h"
 #include "ros/monitor/query_piece.h"
 #include "scene/name_pair.h"
-#include "sdf_ccd/check_motion.h"
 
 namespace sdf_ccd {
 namespace {
@@ -197,7 +200,7 @@ void Queries::checkMotions(const QueryMotions::Request& request, QueryMotions::R
     const QueryPiece piece(turns_, limits_.seconds, work);
     const CancelPoint cancel;
     const auto motionOf = [&](std::size_t i, double tolerance) {
-      const CancelScope scope(cancel);  // this may run in another thread
+      const TaskCancelScope scope(cancel);  // this may run in another thread
       MotionSampling sampling = sampling_;
       sampling.tolerance = tolerance;
       try {

@@ -3,7 +3,9 @@
 
 #include <ros/console.h>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
+#include "monitor/nearest_body.h"
 #include "motion/valid_pose.h"
 #include "ros/messages/conversions.h"
 #include "ros/monitor/queries.h"

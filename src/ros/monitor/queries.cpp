@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/refuse.h"
 #include "common/seconds_since.h"

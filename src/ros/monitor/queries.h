@@ -7,6 +7,9 @@
 
 #include <ros/publisher.h>
 
+#include "monitor/nearest_body.h"
+#include "monitor/shared_memory.h"
+#include "motion/motion_sampling.h"
 #include "ros/messages/robot_motion.h"
 #include "ros/monitor/work_arena.h"
 #include "ros/monitor/work_turns.h"

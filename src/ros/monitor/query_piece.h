@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/cancel_point.h"
 #include "common/refuse.h"
 #include "ros/monitor/work_turns.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

@@ -7,11 +7,11 @@
 
 #include <ros/package.h>
 
+#include "common/cancel_point.h"
 #include "common/number_text.h"
 #include "common/seconds_since.h"
 #include "robot_monitor/awaited_tile.h"
 #include "ros/monitor/low_priority.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

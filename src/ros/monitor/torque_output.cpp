@@ -68,20 +68,25 @@ void TorqueOutput::set(MonitorLoop& loop, sensor_msgs::JointState& message) {
   const TrackedCycle& cycle = loop.cycle();
   std::fill(wrenches_.begin(), wrenches_.end(), Wrench());
   findLinks(loop.history(), cycle);
-  const auto add = [&](int body, const Wrench& wrench) {
+  const auto add = [&](int body, std::size_t end, const Wrench& wrench) {
     const int link = link_of_body_[body];
-    if (link < 0 || wrench.force.isZero(0.0)) return;
-    const Isometry3d& X_WB = cycle.motion.X_WB[body].back();
+    if (link < 0 || (wrench.force.isZero(0.0) && wrench.torque.isZero(0.0))) return;
+    const Isometry3d X_WL_then = cycle.motion.pose(body, end) * loop.scene().bodies[body].X_frame_B.inverse();
     if (!is_known_[link]) {  // it has no moving joint directly above it: its body's pose is used
-      X_WL_[link] = X_WB;
+      X_WL_[link] = X_WL_then;
       is_known_[link] = 1;
     }
-    wrenches_[link].force += wrench.force;
-    wrenches_[link].torque += wrench.torque + (X_WB.translation() - X_WL_[link].translation()).cross(wrench.force);
+    // A pair may have been checked until an earlier time than others. What acted on the link then does so now, as seen
+    // from the link: the torque at the joint above it is that of then.
+    const Matrix3d turn = X_WL_[link].linear() * X_WL_then.linear().transpose();
+    const Vector3d lever = cycle.motion.pose(body, end).translation() - X_WL_then.translation();
+    wrenches_[link].force += turn * wrench.force;
+    wrenches_[link].torque += turn * (wrench.torque + lever.cross(wrench.force));
   };
   for (const PairResult& pair : loop.result().pairs) {
-    add(pair.body_a, pair.on_a_W);
-    add(pair.body_b, pair.on_b_W);
+    if (pair.span.empty()) continue;
+    add(pair.body_a, pair.span.last, pair.on_a_W);
+    add(pair.body_b, pair.span.last, pair.on_b_W);
   }
   message.header.stamp = cycle.end;
   message.header.frame_id.clear();

@@ -1,5 +1,6 @@
 #include "ros/monitor/ways_out_message.h"
 
+#include "monitor/pair_traits.h"
 #include "robot_monitor/ways_out.h"
 #include "ros/tf/robot_frames.h"
 

@@ -5,8 +5,8 @@
 
 #include <tbb/flow_graph.h>
 
+#include "common/cancel_point.h"
 #include "ros/monitor/low_priority.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 

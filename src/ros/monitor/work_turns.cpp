@@ -3,7 +3,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

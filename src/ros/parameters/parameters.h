@@ -18,10 +18,9 @@
 #include "ros/tf/cycle_trigger.h"
 #include "ros/tf/tf_tracker.h"
 #include "scene/pair_rules.h"
-#include "sdf_ccd/contacts.h"
+#include "sdf_ccd/distances.h"
 #include "sdf_ccd/monitor.h"
 #include "sdf_ccd/robot.h"
-#include "sdf_ccd/velocity_scale.h"
 
 namespace sdf_ccd {
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/number_text.h"
+#include "motion/motion_sampling.h"
 #include "motion/valid_pose.h"
 #include "ros/tf/seconds_between.h"
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/motion_sampling.h"
 #include "motion/sample_motion.h"
 #include "ros/tf/tf_history.h"
 #include "sdf_ccd/scene.h"

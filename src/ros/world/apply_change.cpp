@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "common/cancel_point.h"
 #include "common/refuse.h"
 #include "common/shown_text.h"
 #include "common/text_limits.h"
@@ -10,7 +11,6 @@
 #include "robot/object_body.h"
 #include "ros/parameters/world_file.h"
 #include "ros/tf/seconds_between.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {
@@ -81,8 +81,12 @@ void add(const SceneChange& change, const std::string& frame, ChangeSources& sou
 
 void append(const SceneChange& change, ChangeSources& sources, ChangingScene& scene) {
   scene.requireReplaceable(change.id, "APPEND");
-  const std::vector<GeometryDescription>& shapes = scene.object(change.id).body.geometry;
+  const BodyDescription& body = scene.object(change.id).body;
+  const std::vector<GeometryDescription>& shapes = body.geometry;
   requireNoPose(change, "APPEND");
+  if (const std::string frame = frameOf(change, body.frame); frame != body.frame)
+    refuse("APPEND leaves " + shownText(change.id) + " in the frame " + body.frame +
+           ", and its shapes are in the object's own: give no frame, instead of " + frame);
   const bool holds_map =
       std::any_of(shapes.begin(), shapes.end(), [](const GeometryDescription& part) { return part.watertight_voxels; });
   if (holds_map || !change.octomap_file.empty())

@@ -5,8 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "common/cancel_point.h"
 #include "common/infinity.h"
-#include "sdf_ccd/cancel.h"
 
 namespace sdf_ccd {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdf_ccd/cancel.h"
+#include "common/cancel_point.h"
 
 namespace sdf_ccd {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/cancel_point.h"
 #include "mesh/mesh_edges.h"
-#include "sdf_ccd/cancel.h"
 #include "solid/edge_search.h"
 
 namespace sdf_ccd {

@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
+#include "common/cancel_point.h"
 #include "mesh/corners.h"
 #include "mesh/triangle.h"
-#include "sdf_ccd/cancel.h"
 #include "solid/edge_search.h"
 
 namespace sdf_ccd {

@@ -1,4 +1,4 @@
-#include "cell_ways.h"
+#include "cell_paths.h"
 
 #include "common/lane_vector.h"
 #include "field/trilinear_cell.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace lanes;
 using Vectors = LaneVector<Doubles>;
-using Column = CellWays::Column;
+using Column = CellPaths::Column;
 
 SDF_CCD_INLINE Doubles load(const Column& column) {
   return lanes::load(column.data());
@@ -53,7 +53,7 @@ SDF_CCD_INLINE void findMinima(const std::array<Doubles, 4>& c, CellDepths& dept
   const Doubles end = c[0] + (c[1] + (c[2] + c[3]));
   store(rises ? zero : (falls ? one : zero - one), depths.u);
   store(rises ? c[0] : end, depths.value);
-  for (int i = 0; i < CellWays::kCount; ++i) {
+  for (int i = 0; i < CellPaths::kCount; ++i) {
     if (depths.u[i] >= 0.0) continue;
     const CubicMinimum lowest = minimumOf({{c[0][i], c[1][i], c[2][i], c[3][i]}});
     depths.u[i] = lowest.u;
@@ -61,12 +61,12 @@ SDF_CCD_INLINE void findMinima(const std::array<Doubles, 4>& c, CellDepths& dept
   }
 }
 
-SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d& near_F, CellDepths& depths,
-                           std::array<CellImpulses::Sum, kGaussNodes.size()>& sums) {
+SDF_CCD_LANES void addPaths(const CellPaths& paths, double duration, const Vector3d& near_F, CellDepths& depths,
+                            std::array<CellImpulses::Sum, kGaussNodes.size()>& sums) {
   const Doubles zero = {};
   std::array<Doubles, 8> corners;
-  for (int k = 0; k < 8; ++k) corners[k] = load(ways.corners[k]);
-  const Vectors from = lanes::load(ways.from), to = lanes::load(ways.to);
+  for (int k = 0; k < 8; ++k) corners[k] = load(paths.corners[k]);
+  const Vectors from = lanes::load(paths.from), to = lanes::load(paths.to);
   const Vectors d = to - from;
   const std::array<Doubles, 4> c = cubicAlong<Doubles>(corners, {from.x, from.y, from.z}, {d.x, d.y, d.z});
   findMinima(c, depths);
@@ -74,7 +74,7 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   // As SmoothPiece::gradient().
   const Vectors first = gradientAt(corners, from), last = gradientAt(corners, to),
                 middle = gradientAt(corners, from + d * (zero + 0.5));
-  const Doubles side = load(ways.side), least2 = side * side * kNoDirection2;
+  const Doubles side = load(paths.side), least2 = side * side * kNoDirection2;
   Doubles bears = zero + 1.0;
   std::array<Vectors, kGaussNodes.size()> normals;
   for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
@@ -85,9 +85,9 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
   store(bears, depths.bears);
   lanes::store(N, depths.normal);
 
-  const Doubles stiffness = bears * load(ways.stiffness) * duration, damping = bears * load(ways.damping);
-  const Vectors start = lanes::load(ways.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
-  const Vectors step = lanes::load(ways.step);
+  const Doubles stiffness = bears * load(paths.stiffness) * duration, damping = bears * load(paths.damping);
+  const Vectors start = lanes::load(paths.start) - Vectors{zero + near_F.x(), zero + near_F.y(), zero + near_F.z()};
+  const Vectors step = lanes::load(paths.step);
   for (std::size_t i = 0; i < kGaussNodes.size(); ++i) {
     const Doubles s = zero + kGaussNodes[i].s;
     const Doubles value = c[0] + s * (c[1] + s * (c[2] + s * c[3]));
@@ -101,19 +101,19 @@ SDF_CCD_LANES void addWays(const CellWays& ways, double duration, const Vector3d
 
 using FourInts = std::int32_t __attribute__((vector_size(kWidth * sizeof(std::int32_t))));
 
-/// The cells of ways in a grid.
-struct LocatedWays {
-  std::array<std::array<std::int32_t, CellWays::kCount>, 3> cell;
-  Column within;  ///< 1 if the way is in the box and stays in the cell; else 0
+/// The cells of paths in a grid.
+struct LocatedPaths {
+  std::array<std::array<std::int32_t, CellPaths::kCount>, 3> cell;
+  Column within;  ///< 1 if the path is in the box and stays in the cell; else 0
 };
 
-SDF_CCD_LANES void locate(const GridShape& shape, CellWays& ways, LocatedWays& located) {
+SDF_CCD_LANES void locate(const GridShape& shape, CellPaths& paths, LocatedPaths& located) {
   const Doubles zero = {}, one = zero + 1.0;
   const Vector3i count = shape.cells();
   const AlignedBox3d box = shape.box();
   Doubles within = one;
   for (int k = 0; k < 3; ++k) {
-    const Doubles start = load(ways.start[k]), end = start + load(ways.step[k]);
+    const Doubles start = load(paths.start[k]), end = start + load(paths.step[k]);
     const Doubles from = (start - shape.origin[k]) / shape.cell, to = (end - shape.origin[k]) / shape.cell;
     // A number for NaN, too.
     const Doubles held = smaller(larger(from, zero), zero + (count[k] - 1.0));
@@ -123,21 +123,21 @@ SDF_CCD_LANES void locate(const GridShape& shape, CellWays& ways, LocatedWays& l
     within = start <= zero + box.max()[k] ? within : zero;
     within = to_low >= zero ? within : zero;
     within = to_low < one ? within : zero;
-    store(smaller(larger(from_low, zero), one), ways.from[k]);
-    store(smaller(larger(to_low, zero), one), ways.to[k]);
+    store(smaller(larger(from_low, zero), one), paths.from[k]);
+    store(smaller(larger(to_low, zero), one), paths.to[k]);
     for (int i = 0; i < kWidth; ++i) located.cell[k][i] = cell[i];
   }
   store(within, located.within);
-  store(zero + shape.cell, ways.side);
+  store(zero + shape.cell, paths.side);
 }
 
 /// Samples of the corners, in steps.
-using CornerSamples = std::array<std::array<std::int32_t, CellWays::kCount>, 8>;
+using CornerSamples = std::array<std::array<std::int32_t, CellPaths::kCount>, 8>;
 
-SDF_CCD_LANES void setCorners(const CornerSamples& samples, double step, CellWays& ways) {
+SDF_CCD_LANES void setCorners(const CornerSamples& samples, double step, CellPaths& paths) {
   for (int k = 0; k < 8; ++k) {
     const auto& s = samples[k];
-    store(__builtin_convertvector((FourInts{s[0], s[1], s[2], s[3]}), Doubles) * step, ways.corners[k]);
+    store(__builtin_convertvector((FourInts{s[0], s[1], s[2], s[3]}), Doubles) * step, paths.corners[k]);
   }
 }
 
@@ -153,12 +153,12 @@ Vector3d sumOf(const std::array<Column, 3>& columns) {
 
 }  // namespace
 
-unsigned placeInGrid(const SparseGrid& grid, CellWays& ways) {
-  LocatedWays located;
-  locate(grid.shape(), ways, located);
+unsigned placeInGrid(const SparseGrid& grid, CellPaths& paths) {
+  LocatedPaths located;
+  locate(grid.shape(), paths, located);
   CornerSamples samples = {};
   unsigned placed = 0;
-  for (int i = 0; i < CellWays::kCount; ++i) {
+  for (int i = 0; i < CellPaths::kCount; ++i) {
     if (located.within[i] == 0.0) continue;
     const Vector3i cell(located.cell[0][i], located.cell[1][i], located.cell[2][i]);
     const std::int32_t slot = grid.slot(GridShape::brickOf(cell));
@@ -167,15 +167,15 @@ unsigned placeInGrid(const SparseGrid& grid, CellWays& ways) {
     const std::array<std::int16_t, 8> corners = grid.cellSamples(slot, GridShape::inBrick(cell));
     for (int k = 0; k < 8; ++k) samples[k][i] = corners[k];
   }
-  setCorners(samples, grid.shape().step, ways);
+  setCorners(samples, grid.shape().step, paths);
   return placed;
 }
 
-void CellImpulses::add(const CellWays& ways, double duration, CellDepths& depths) {
+void CellImpulses::add(const CellPaths& paths, double duration, CellDepths& depths) {
   // About a point nearby, moments keep the precision that they lose about an origin far away.
-  if (!bears_) near_F_ = {ways.start[0][0], ways.start[1][0], ways.start[2][0]};
+  if (!bears_) near_F_ = {paths.start[0][0], paths.start[1][0], paths.start[2][0]};
   bears_ = true;
-  addWays(ways, duration, near_F_, depths, sums_);
+  addPaths(paths, duration, near_F_, depths, sums_);
 }
 
 void CellImpulses::moveTo(ChordImpulses& impulses) {

@@ -1,22 +1,23 @@
-#include "contact/cell_ways.h"
+#include "contact/cell_paths.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "contact/curved_field.h"
+#include "field/field_access.h"
 #include "oracle/contact_case.h"
 #include "oracle/random.h"
 #include "sdf_ccd/field.h"
 
-namespace sdf_ccd::cell_ways_test {
+namespace sdf_ccd::cell_paths_test {
 
 using namespace test;
 using Real = long double;
 using Vector3l = Eigen::Matrix<Real, 3, 1>;
 
-/// The point and the way of one lane.
-struct Way {
+/// The point and the path of one lane.
+struct Path {
   std::array<double, 8> corners;
   Vector3d from, to;  // in the cell
   double side;
@@ -48,73 +49,73 @@ struct Way {
   }
 };
 
-void put(const Way& way, int lane, CellWays& ways) {
-  for (int c = 0; c < 8; ++c) ways.corners[c][lane] = way.corners[c];
+void put(const Path& path, int lane, CellPaths& paths) {
+  for (int c = 0; c < 8; ++c) paths.corners[c][lane] = path.corners[c];
   for (int k = 0; k < 3; ++k) {
-    ways.from[k][lane] = way.from[k];
-    ways.to[k][lane] = way.to[k];
-    ways.start[k][lane] = way.start[k];
-    ways.step[k][lane] = way.step[k];
+    paths.from[k][lane] = path.from[k];
+    paths.to[k][lane] = path.to[k];
+    paths.start[k][lane] = path.start[k];
+    paths.step[k][lane] = path.step[k];
   }
-  ways.side[lane] = way.side;
-  ways.stiffness[lane] = way.stiffness;
-  ways.damping[lane] = way.damping;
+  paths.side[lane] = path.side;
+  paths.stiffness[lane] = path.stiffness;
+  paths.damping[lane] = path.damping;
 }
 
-/// In a cell below zero, which bends; some ways have their deepest place on the way.
-Way randomWay(Random& random, double far) {
+/// In a cell below zero, which bends; some paths have their deepest place on the path.
+Path randomPath(Random& random, double far) {
   std::uniform_real_distribution<double> u(0.0, 1.0);
-  Way way;
-  way.side = std::pow(10.0, -4.0 * u(random));
-  for (double& corner : way.corners) corner = -way.side * (0.01 + u(random));
-  way.from = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
-  way.to = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
-  way.start = Vector3d(far, 0.5 * far, 0.0) + uniformIn(random, {-Vector3d::Ones(), Vector3d::Ones()});
-  way.step = way.side * (way.to - way.from);
-  way.stiffness = std::pow(10.0, 9.0 * u(random));
-  way.damping = u(random) < 0.5 ? 0.0 : u(random) * way.stiffness;
-  return way;
+  Path path;
+  path.side = std::pow(10.0, -4.0 * u(random));
+  for (double& corner : path.corners) corner = -path.side * (0.01 + u(random));
+  path.from = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+  path.to = uniformIn(random, {Vector3d::Zero(), Vector3d::Ones()});
+  path.start = Vector3d(far, 0.5 * far, 0.0) + uniformIn(random, {-Vector3d::Ones(), Vector3d::Ones()});
+  path.step = path.side * (path.to - path.from);
+  path.stiffness = std::pow(10.0, 9.0 * u(random));
+  path.damping = u(random) < 0.5 ? 0.0 : u(random) * path.stiffness;
+  return path;
 }
 
-TEST(CellWays, BearWhatGausssRuleSays) {
+TEST(CellPaths, BearWhatGausssRuleSays) {
   Random random(3);
   for (const double far : {0.0, 1e3}) {
     for (int trial = 0; trial < 100; ++trial) {
       constexpr double kDuration = 1e-3;
-      CellWays ways;
-      std::vector<Way> used;
+      CellPaths paths;
+      std::vector<Path> used;
       CellImpulses impulses;
       CellDepths deepest;
       Vector3l impulse = Vector3l::Zero(), angular = Vector3l::Zero();
       Real size = 0.0L;
       for (int group = 0; group < 1 + trial % 3; ++group) {
-        ways = {};
+        paths = {};
         used.clear();
-        for (int lane = 0; lane < 1 + trial % CellWays::kCount; ++lane) {
-          used.push_back(randomWay(random, far));
-          put(used.back(), lane, ways);
+        for (int lane = 0; lane < 1 + trial % CellPaths::kCount; ++lane) {
+          used.push_back(randomPath(random, far));
+          put(used.back(), lane, paths);
         }
-        impulses.add(ways, kDuration, deepest);
+        impulses.add(paths, kDuration, deepest);
         for (std::size_t lane = 0; lane < used.size(); ++lane) {
-          const Way& way = used[lane];
+          const Path& path = used[lane];
           ASSERT_EQ(deepest.bears[lane], 1.0);
           for (const Real from_middle : {-1.0L, 0.0L, 1.0L}) {
             const Real s = 0.5L + from_middle * std::sqrt(0.15L), weight = (from_middle == 0.0L ? 8.0L : 5.0L) / 18.0L;
-            const Vector3l force = -Real(way.stiffness) * way.value(s) * way.normal(s) -
-                                   Real(way.damping) * way.step.cast<Real>() / kDuration;
+            const Vector3l force = -Real(path.stiffness) * path.value(s) * path.normal(s) -
+                                   Real(path.damping) * path.step.cast<Real>() / kDuration;
             const Vector3l part = weight * kDuration * force;
             impulse += part;
-            angular += (way.start.cast<Real>() + s * way.step.cast<Real>()).cross(part);
+            angular += (path.start.cast<Real>() + s * path.step.cast<Real>()).cross(part);
             size += part.norm();
           }
           Real least = 0.0L;
-          for (int i = 0; i <= 1000; ++i) least = std::min(least, way.value(i / 1000.0L));
+          for (int i = 0; i <= 1000; ++i) least = std::min(least, path.value(i / 1000.0L));
           const Real at = deepest.u[lane];
-          EXPECT_LE(std::abs(double(way.value(at)) - deepest.value[lane]), 1e-14 * way.side);
-          EXPECT_LE(deepest.value[lane], double(least) + 1e-14 * way.side);
+          EXPECT_LE(std::abs(double(path.value(at)) - deepest.value[lane]), 1e-14 * path.side);
+          EXPECT_LE(deepest.value[lane], double(least) + 1e-14 * path.side);
           if (at != 0.0L && at != 1.0L) continue;
           const Vector3d normal(deepest.normal[0][lane], deepest.normal[1][lane], deepest.normal[2][lane]);
-          EXPECT_LE((normal - way.normal(at).cast<double>()).norm(), 1e-12);
+          EXPECT_LE((normal - path.normal(at).cast<double>()).norm(), 1e-12);
         }
       }
       Wrench sum;
@@ -129,15 +130,15 @@ TEST(CellWays, BearWhatGausssRuleSays) {
 }
 
 /// Nothing is added for a cell without a direction; the lanes beside it are as without it.
-TEST(CellWays, WithoutDirectionBearNothing) {
+TEST(CellPaths, WithoutDirectionBearNothing) {
   Random random(4);
-  const Way way = randomWay(random, 0.0);
-  Way flat = way;
+  const Path path = randomPath(random, 0.0);
+  Path flat = path;
   flat.corners.fill(-0.01);
-  CellWays both, one;
+  CellPaths both, one;
   put(flat, 0, both);
-  put(way, 1, both);
-  put(way, 1, one);
+  put(path, 1, both);
+  put(path, 1, one);
   std::array<Wrench, 2> sums;
   for (int i = 0; i < 2; ++i) {
     CellImpulses impulses;
@@ -165,14 +166,14 @@ ContactImpulse oneByOne(const ContactCase& contact, const ContactOptions& option
   return found;
 }
 
-/// Points of one contact are added together where their ways allow: each bears what it does by itself, and has its
+/// Points of one contact are added together where their paths allow: each bears what it does by itself, and has its
 /// depth. Some points are inside only for a part of the time, some change the cell, some are on the faces of cells.
-TEST(CellWays, PointsTogetherAreAsEachByItself) {
+TEST(CellPaths, PointsTogetherAreAsEachByItself) {
   Random random(5);
   FieldOptions adaptive;
   adaptive.max_error = 2e-3;
   const std::vector<DistanceField> fields = {curvedField(), buildField(boxMesh({0.3, 0.3, 0.3}), adaptive)};
-  ASSERT_TRUE(fields[0].grid() && fields[1].adaptive());
+  ASSERT_TRUE(FieldAccess::grid(fields[0]) && FieldAccess::adaptive(fields[1]));
   ContactOptions options = perArea();
   options.damping = 3.0;
   for (const DistanceField& field : fields) {
@@ -191,18 +192,18 @@ TEST(CellWays, PointsTogetherAreAsEachByItself) {
       for (std::size_t i = 0; i < expected.depths.size(); ++i) {
         const HitDepth &one = together.depths[i], &other = expected.depths[i];
         // In an adaptive field, rounding decides on which side of a jump a point on a face is.
-        const double jump = field.adaptive() ? 2.0 * field.errorBound() : 0.0;
+        const double jump = FieldAccess::adaptive(field) ? 2.0 * field.errorBound() : 0.0;
         EXPECT_NEAR(one.depth, other.depth, 1e-14 + jump);
         EXPECT_LE(std::abs(one.depth - other.depth), one.error + other.error);
         if (one.time != other.time) continue;
         EXPECT_LE((one.p_C - other.p_C).norm(), 1e-12);
       }
       const double size = expected.on_shell_body.force.norm();
-      const double share = field.adaptive() ? 1e-2 : 1e-9;
+      const double share = FieldAccess::adaptive(field) ? 1e-2 : 1e-9;
       EXPECT_LE((together.on_shell_body.force - expected.on_shell_body.force).norm(), share * size);
       EXPECT_LE((together.on_shell_body.torque - expected.on_shell_body.torque).norm(), share * size);
     }
   }
 }
 
-}  // namespace sdf_ccd::cell_ways_test
+}  // namespace sdf_ccd::cell_paths_test

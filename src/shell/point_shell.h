@@ -77,21 +77,6 @@ struct PointShell {
   void add(const Vector3d& p, const Vector3d& normal, float area);
 };
 
-/// How densely a surface is sampled.
-struct ShellOptions {
-  double spacing = 0.01;  ///< no location of the surface farther than this from a point, but for its rounding [m]
-  /// If less than the spacing, edges are sampled separately: if two surfaces sampled like this touch, a point of one is
-  /// no farther than this from the other, but for its rounding (see contact_gap.h) [m]. 0: edges are not sampled
-  /// separately.
-  double edge_gap = 0.0;
-  bool has_siblings = false;  ///< the surface is one of several of a body, whose edges may be sampled separately
-  /// Mesh vertices nearer than this to a kept vertex are left out [m]; 0 keeps all. For a mesh whose parts overlap, it
-  /// is at least a tenth of the spacing (or edge gap).
-  double vertex_spacing = 0.0;
-  std::uint64_t seed = 1;               ///< equal seeds give equal shells
-  std::size_t max_points = 20'000'000;  ///< more are refused with std::length_error
-};
-
 /// Bounding spheres over the points of a shell (paper §3.3), nested: each node's sphere holds all points below it.
 struct SphereTree {
   /// A sphere around consecutive points, in single precision.

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "robot/planned_motion.h"
 #include "sdf_ccd/monitor.h"
-#include "sdf_ccd/trajectory.h"
 
 namespace sdf_ccd {
 

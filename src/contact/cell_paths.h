@@ -13,7 +13,7 @@ namespace sdf_ccd {
 constexpr double kNoDirection2 = 1e-18;
 
 /// Shell points that each stay in one cell of a field along a whole chord: as many as there are lanes.
-struct CellWays {
+struct CellPaths {
   static constexpr int kCount = lanes::kWidth;
   using Column = std::array<double, kCount>;
 
@@ -25,32 +25,32 @@ struct CellWays {
   Column damping = {};                          ///< [N·s/m]
 };
 
-/// Places ways by their `start` and `step` in the cells of a uniform grid, as CellReader::enter(): sets corners, from,
+/// Places paths by their `start` and `step` in the cells of a uniform grid, as CellReader::enter(): sets corners, from,
 /// to and side.
-/// @return bit i: way i is in one cell with corner values; else its cell is not set.
-unsigned placeInGrid(const SparseGrid& grid, CellWays& ways);
+/// @return bit i: path i is in one cell with corner values; else its cell is not set.
+unsigned placeInGrid(const SparseGrid& grid, CellPaths& paths);
 
 /// Where points are deepest.
 struct CellDepths {
-  CellWays::Column u;                      ///< time, [0, 1]
-  CellWays::Column value;                  ///< [m]
-  std::array<CellWays::Column, 3> normal;  ///< the field's at u, if that is 0 or 1
-  CellWays::Column bears;                  ///< 1; 0 if the field has no direction somewhere: nothing has been added
+  CellPaths::Column u;                      ///< time, [0, 1]
+  CellPaths::Column value;                  ///< [m]
+  std::array<CellPaths::Column, 3> normal;  ///< the field's at u, if that is 0 or 1
+  CellPaths::Column bears;                  ///< 1; 0 if the field has no direction somewhere: nothing has been added
 };
 
 /// Adds up the impulses of such points along one chord after another.
 class CellImpulses {
  public:
   /// Adds the impulses of all lanes, N as the field has it. @param duration  of the chord [s].
-  void add(const CellWays& ways, double duration, CellDepths& depths);
+  void add(const CellPaths& paths, double duration, CellDepths& depths);
 
   /// Adds what has been added here during a chord to what other points bear, and forgets it.
   void moveTo(ChordImpulses& impulses);
 
   /// By lane, at one of kGaussNodes.
   struct Sum {
-    std::array<CellWays::Column, 3> impulse = {};  ///< [N·s]
-    std::array<CellWays::Column, 3> angular = {};  ///< about near_F [N·m·s]
+    std::array<CellPaths::Column, 3> impulse = {};  ///< [N·s]
+    std::array<CellPaths::Column, 3> angular = {};  ///< about near_F [N·m·s]
   };
 
  private:
