@@ -125,7 +125,7 @@ class MotionChecker {
       found.time = earliest = touch.time();
     }
     std::stable_sort(found.pairs.begin(), found.pairs.end(),
-                     [](const PairVerdict& a, const PairVerdict& b) { return a.time < b.time; });
+                     [](const MotionPairVerdict& a, const MotionPairVerdict& b) { return a.time < b.time; });
     return found;
   }
 

@@ -64,7 +64,7 @@ struct MotionsRequest {
 };
 
 /// A pair that is not CLEAR over a motion.
-struct PairVerdict {
+struct MotionPairVerdict {
   int body_a = -1, body_b = -1;  ///< in Scene::bodies
   Verdict verdict = Verdict::kNotChecked;
   /// The begin of its first contact, as in checkMotion(); without a contact, of the first part of the motion that is
@@ -79,7 +79,7 @@ struct MotionVerdict {
   int pair = -1;             ///< in Scene::pairs: the first one with the verdict; −1 if that is CLEAR
   double time = -1.0;        ///< of the contact, or else the begin of the part of the motion with the verdict [s];
                              ///< −1 if CLEAR. The first such time of all with MotionsRequest::list_pairs
-  std::vector<PairVerdict> pairs;        ///< all that are not CLEAR, by their times, if MotionsRequest::list_pairs
+  std::vector<MotionPairVerdict> pairs;  ///< all that are not CLEAR, by their times, if MotionsRequest::list_pairs
   std::vector<UncheckedPair> unchecked;  ///< pairs that MotionCheck::result() adds, of the part that was checked
 };
 

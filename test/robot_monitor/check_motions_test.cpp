@@ -157,7 +157,7 @@ TEST_F(CheckMotionsTest, ListedPairsAreThoseOfTheMotionAlone) {
       for (const PairResult& pair : alone.pairs) {
         if (pair.verdict == Verdict::kClear) continue;
         ++not_clear;
-        const auto same = std::find_if(verdicts[i].pairs.begin(), verdicts[i].pairs.end(), [&](const PairVerdict& of) {
+        const auto same = std::find_if(verdicts[i].pairs.begin(), verdicts[i].pairs.end(), [&](const MotionPairVerdict& of) {
           return of.body_a == pair.body_a && of.body_b == pair.body_b;
         });
         ASSERT_NE(same, verdicts[i].pairs.end()) << i;

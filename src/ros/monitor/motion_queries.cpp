@@ -49,7 +49,7 @@ CheckedMotion toCheckedMotion(const MotionVerdict& verdict, const Scene& scene) 
   message.error_bound = verdict.error_bound;
   if (verdict.pair >= 0) setNames(scene.pairs[static_cast<std::size_t>(verdict.pair)], message);
   message.time = ros::Duration(verdict.time);
-  for (const PairVerdict& pair : verdict.pairs) {
+  for (const MotionPairVerdict& pair : verdict.pairs) {
     CheckedPair& listed = message.pairs.emplace_back();
     setNames(pair, listed);
     listed.verdict = numberOf(pair.verdict);
