@@ -4,142 +4,10 @@
 #include <cmath>
 
 #include "common/cancel_point.h"
+#include "hull_bounds.h"
 #include "mesh/triangle.h"
 
 namespace sdf_ccd {
-namespace {
-
-/// One value for each of a triangle's corners at the start of a motion, then at its end.
-using HullValues = std::array<double, 6>;
-
-/// The hull of these corners.
-struct Hull {
-  std::array<Vector3d, 6> corners;
-  Vector3d center = Vector3d::Zero();
-  double size = 0.0;  // no corner is farther from the center [m]
-};
-
-constexpr std::size_t kMostSides = 10;
-
-/// Upper bounds of the depth in a hull, each linear or convex between its corners, and their best weighted mean.
-class Bounds {
- public:
-  explicit Bounds(const Hull& hull) : hull_(hull) {}
-
-  const Hull& hull() const { return hull_; }
-
-  /// The smallest upper bound.
-  double value() const { return value_; }
-
-  /// Shares of the corners in the place where it is attained, as far as the bounds tell.
-  const HullValues& place() const { return place_; }
-
-  void add(const HullValues& values, const DepthPlane& plane = {}) {
-    if (count_ == kMostSides) return;
-    sides_[count_] = values;
-    planes_[count_] = plane;
-    ++count_;
-    solve();
-  }
-
-  /// @return whether the plane holds in the whole hull.
-  bool addPlane(const DepthPlane& plane) {
-    HullValues values;
-    for (int k = 0; k < 6; ++k) {
-      if (!plane.holdsAt(hull_.corners[k])) return false;
-      values[k] = plane.depthBehind(hull_.corners[k]);
-    }
-    add(values, plane);
-    return true;
-  }
-
-  /// The planes of the largest weight.
-  template <std::size_t n>
-  void copyPlanes(std::array<DepthPlane, n>& planes) const {
-    std::array<std::size_t, kMostSides> order;
-    for (std::size_t i = 0; i < count_; ++i) order[i] = i;
-    std::sort(order.begin(), order.begin() + count_, [&](std::size_t i, std::size_t k) {
-      const bool is_i = planes_[i].radius > 0.0, is_k = planes_[k].radius > 0.0;
-      return is_i != is_k ? is_i : weights_[i] > weights_[k];
-    });
-    planes = {};
-    for (std::size_t i = 0; i < std::min(n, count_); ++i) planes[i] = planes_[order[i]];
-  }
-
- private:
-  /// The weights for which the largest mean at a corner is smallest: a matrix game, solved as a linear program by the
-  /// simplex method (Dantzig 1951). Whatever weights it ends with, their mean is an upper bound.
-  void solve() {
-    constexpr int kMaxPivots = 40;
-    constexpr double kZero = 1e-12;
-    double least = kInfinity, most = -kInfinity;
-    for (std::size_t i = 0; i < count_; ++i)
-      for (const double value : sides_[i]) {
-        least = std::min(least, value);
-        most = std::max(most, value);
-      }
-    const double scale = most > least ? 1.0 / (most - least) : 0.0;
-    // Per corner a row: the scaled sides, then the slack variables, then the limit 1. The last row is the objective.
-    constexpr std::size_t kRows = 6, kColumns = kMostSides + 6;
-    std::array<std::array<double, kColumns + 1>, kRows + 1> table{};
-    std::array<std::size_t, kRows> basis;
-    for (std::size_t row = 0; row < kRows; ++row) {
-      for (std::size_t i = 0; i < count_; ++i) table[row][i] = 1.0 + scale * (sides_[i][row] - least);
-      table[row][kMostSides + row] = table[row][kColumns] = 1.0;
-      basis[row] = kMostSides + row;
-    }
-    for (std::size_t i = 0; i < count_; ++i) table[kRows][i] = -1.0;
-    for (int pivot = 0; pivot < kMaxPivots; ++pivot) {
-      const auto& objective = table[kRows];
-      const std::size_t column = std::min_element(objective.begin(), objective.begin() + kColumns) - objective.begin();
-      if (!(objective[column] < -kZero)) break;
-      std::size_t out = kRows;
-      double ratio = kInfinity;
-      for (std::size_t row = 0; row < kRows; ++row) {
-        if (!(table[row][column] > kZero)) continue;
-        const double of_row = table[row][kColumns] / table[row][column];
-        if (of_row < ratio) out = row;
-        ratio = std::min(ratio, of_row);
-      }
-      if (out == kRows) break;
-      basis[out] = column;
-      const double inverse = 1.0 / table[out][column];
-      for (double& entry : table[out]) entry *= inverse;
-      for (std::size_t row = 0; row <= kRows; ++row) {
-        const double factor = table[row][column];
-        if (row == out || factor == 0.0) continue;
-        for (std::size_t k = 0; k <= kColumns; ++k) table[row][k] -= factor * table[out][k];
-      }
-    }
-    std::array<double, kMostSides> weights{};
-    HullValues place{};
-    double all_weights = 0.0, all_shares = 0.0;
-    for (std::size_t row = 0; row < kRows; ++row) {
-      if (basis[row] < kMostSides) all_weights += weights[basis[row]] = std::max(0.0, table[row][kColumns]);
-      all_shares += place[row] = std::max(0.0, table[kRows][kMostSides + row]);
-    }
-    if (!(all_weights > 0.0 && all_shares > 0.0)) return;
-    double bound = -kInfinity;
-    for (std::size_t row = 0; row < kRows; ++row) {
-      double mean = 0.0;
-      for (std::size_t i = 0; i < count_; ++i) mean += weights[i] / all_weights * sides_[i][row];
-      bound = std::max(bound, mean);
-      place_[row] = place[row] / all_shares;
-    }
-    weights_ = weights;
-    value_ = std::min(value_, bound);
-  }
-
-  const Hull& hull_;
-  std::array<HullValues, kMostSides> sides_;
-  std::array<DepthPlane, kMostSides> planes_;
-  std::array<double, kMostSides> weights_{};
-  std::size_t count_ = 0;
-  double value_ = kInfinity;
-  HullValues place_{1.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-};
-
-}  // namespace
 
 /// The search over one motion.
 class DepthSearch::Step {
@@ -216,8 +84,7 @@ class DepthSearch::Step {
 
   /// Tightens a piece's bound and keeps the piece.
   void add(Piece piece) {
-    piece.bound = std::min(piece.bound, greatest_);
-    if (!isDone(piece.bound)) piece.is_box ? measureBox(piece) : measure(piece);
+    if (!tighten(greatest_, piece)) piece.is_box ? measureBox(piece) : measure(piece);
     piece.step = search_.step_;
     search_.push(piece);
   }
@@ -229,11 +96,10 @@ class DepthSearch::Step {
     // All points stay within half of the travel of their positions halfway.
     const Vector3d center = poseAt(0.5 * (piece.start + piece.end)) * piece.corners[0];
     const double reach = piece.radius + 0.5 * travelIn(piece);
-    piece.bound = std::min(piece.bound, reach - solid_.distanceBound(center));
-    if (isDone(piece.bound)) return;
+    if (tighten(reach - solid_.distanceBound(center), piece)) return;
     const PointDepth depth = solid_.at(center, piece.nearest);
     piece.nearest = depth.triangle;
-    piece.bound = std::min(piece.bound, depth.depth + reach);
+    tighten(depth.depth + reach, piece);
   }
 
   void measure(Piece& piece) {
@@ -247,10 +113,9 @@ class DepthSearch::Step {
     for (const Vector3d& corner : hull.corners) hull.size = std::max(hull.size, (corner - hull.center).norm());
     const double length = piece.end - piece.start;
     const double beyond = motion_.acceleration * length * length / 8.0 + piece.radius;
-    Bounds bounds(hull);
+    HullBounds bounds(hull);
     if (isWholeBall(piece) && solid_.radius() > 0.0) {
-      offerRound(piece, X_start, piece.start);
-      offerRound(piece, X_end, piece.end);
+      offerRound(piece, X_start, X_end);
       tighten(ballInBall(X_start * piece.corners[0], X_end * piece.corners[0], beyond - piece.radius, piece.radius),
               piece);
       return;
@@ -273,14 +138,13 @@ class DepthSearch::Step {
       if (!(bounds.value() < before - 0.1 * search_.resolution_)) break;
     }
     if (isWholeBall(piece) && !tighten(bounds.value() + beyond, piece)) {
-      offerRound(piece, X_start, piece.start);
-      offerRound(piece, X_end, piece.end);
+      offerRound(piece, X_start, X_end);
     }
     bounds.copyPlanes(piece.planes);
   }
 
   /// Adds what the surface nearest to a point tells.
-  void addSide(const PointDepth& side, const PointDepth& center, Bounds& bounds) const {
+  void addSide(const PointDepth& side, const PointDepth& center, HullBounds& bounds) const {
     constexpr double kParallel = 1.0 - 1e-9;
     const Hull& hull = bounds.hull();
     const auto addPlane = [&](const Vector3d& normal, int triangle) {
@@ -300,7 +164,8 @@ class DepthSearch::Step {
   }
 
   /// Measures the point at which the bound is attained.
-  PointDepth offerPlace(const Piece& piece, const Bounds& bounds, const Isometry3d& X_start, const Isometry3d& X_end) {
+  PointDepth offerPlace(const Piece& piece, const HullBounds& bounds, const Isometry3d& X_start,
+                        const Isometry3d& X_end) {
     const HullValues& shares = bounds.place();
     const bool at_end = shares[3] + shares[4] + shares[5] >= 0.5;
     Vector3d p_P = Vector3d::Zero();
@@ -313,11 +178,14 @@ class DepthSearch::Step {
     return depth;
   }
 
-  /// Measures the point of a ball that is deepest in a solid that does not contain its centre, at a time.
-  void offerRound(const Piece& piece, const Isometry3d& X_GP, double s) {
-    const Vector3d center = X_GP * piece.corners[0];
-    const Vector3d p_G = center - piece.radius * solid_.at(center, piece.nearest).out;
-    offer(solid_.at(p_G, piece.nearest), X_GP.inverse() * p_G, p_G, s);
+  /// Measures the point of a ball that is deepest in a solid that does not contain its centre, at both ends.
+  void offerRound(const Piece& piece, const Isometry3d& X_start, const Isometry3d& X_end) {
+    for (const bool at_end : {false, true}) {
+      const Isometry3d& X_GP = at_end ? X_end : X_start;
+      const Vector3d center = X_GP * piece.corners[0];
+      const Vector3d p_G = center - piece.radius * solid_.at(center, piece.nearest).out;
+      offer(solid_.at(p_G, piece.nearest), X_GP.inverse() * p_G, p_G, at_end ? piece.end : piece.start);
+    }
   }
 
   /// Upper bound of the depth of a ball's surface in a ball about the origin, along a path that deviates from its chord
