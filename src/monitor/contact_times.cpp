@@ -21,8 +21,8 @@ class TimeSearch {
         memory_(memory),
         samples_(samples),
         result_(result),
-        start_(surfaces.motion().motion(0).t_start),
-        end_(surfaces.motion().motion(surfaces.motion().steps() - 1).t_end) {}
+        start_(surfaces.motion().startTime()),
+        end_(surfaces.motion().endTime()) {}
 
   void run(const PairDepth::Found& found, const std::optional<ContactPoint>& crossing) {
     if ((crossing && crossing->enter < crossing->exit) || found.throughout > certain_) {

@@ -52,7 +52,7 @@ class Gap {
 void addCrossings(SurfacePair& surfaces, double motion_error, SeparationMemory& memory,
                   std::vector<Interval>& intervals, std::vector<ContactPoint>& crossings) {
   const RelativeMotion& motion = surfaces.motion();
-  const double start = motion.motion(0).t_start, end = motion.motion(motion.steps() - 1).t_end;
+  const double start = motion.startTime(), end = motion.endTime();
   const auto crosses = [&](double time) {
     const std::optional<ContactPoint> crossing = surfaces.crossingAt(time, motion_error, memory);
     if (crossing) crossings.push_back(*crossing);

@@ -12,6 +12,7 @@ namespace {
 constexpr int kMaxPieces = 20000;  // takes some tens of milliseconds
 constexpr int kFewPieces = 2000;   // mostly suffice for a surface of which nothing is known
 
+/// Null if the body has none that is certain.
 std::shared_ptr<const DepthSolid> solidOf(const Body& body) {
   if (body.half_spaces.empty()) return body.triangles && !body.inside_is_doubtful ? body.solid : nullptr;
   if (body.half_spaces.size() > 1 || body.triangles) return nullptr;
@@ -21,11 +22,7 @@ std::shared_ptr<const DepthSolid> solidOf(const Body& body) {
 }  // namespace
 
 bool PairDepth::isPossible(const Body& a, const Body& b) {
-  const auto isSolid = [](const Body& body) {
-    if (!body.half_spaces.empty()) return body.half_spaces.size() == 1 && !body.triangles;
-    return body.triangles && body.solid && !body.inside_is_doubtful;
-  };
-  return isSolid(a) && isSolid(b) && (a.triangles || b.triangles);
+  return solidOf(a) && solidOf(b) && (a.triangles || b.triangles);
 }
 
 PairDepth::PairDepth(const Body& a, const Body& b, double resolution) {
@@ -51,6 +48,10 @@ void PairDepth::addDirection(const Body& f, const Body& p, bool f_is_a, double r
 
 void PairDepth::forget() {
   known_.reset();
+  restart();
+}
+
+void PairDepth::restart() {
   for (Direction& direction : directions_) {
     direction.search.restart();
     direction.X_FP.reset();
@@ -88,15 +89,12 @@ double PairDepth::search(const Interval& times) {
       if (!(start <= end)) continue;
       const double travel = direction.motion.bounds(step).travel;
       const double depth = best_.depth;
+      const auto run = [&](const TwoBodyMotion& motion) { direction.search.run(motion, travel, best_, pieces); };
       if (start == 0.0 && end == 1.0) {
-        direction.search.run(whole, travel, best_, pieces);
+        run(whole);
       } else {
-        const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
-        const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
-        const double part = end - start;
-        direction.search.run({whole.t_start, whole.t_end, X_WF, X_WP, part * part * whole.acceleration}, travel, best_,
-                             pieces);
-        if (best_.depth > depth) best_.s = start + part * best_.s;
+        withPart(whole, start, end, run);
+        if (best_.depth > depth) best_.s = start + (end - start) * best_.s;
       }
       left -= share - pieces;
       if (!(best_.depth > depth)) continue;
@@ -157,24 +155,19 @@ PairDepth::Found PairDepth::run(const PairMotion& pair, double error, Memory& me
 }
 
 ContactPoint PairDepth::deepestWithin(const Interval& times, double error) {
-  const std::optional<Place> known = known_;
-  forget();
+  restart();
   for (Direction& direction : directions_) direction.search.begin(kInfinity);
   best_ = {};
   const ContactPoint point = deepestPoint(search(times), error);
-  forget();
-  known_ = known;
+  restart();
   return point;
 }
 
 double PairDepth::depthAt(double time) const {
   if (!known_) return 0.0;
   const Direction& direction = directions_[known_->direction];
-  std::size_t step = 0;
-  while (step + 1 < direction.motion.steps() && direction.motion.motion(step).t_end < time) ++step;
-  const TwoBodyMotion motion = direction.motion.motion(step);
-  const double s = std::clamp((time - motion.t_start) / (motion.t_end - motion.t_start), 0.0, 1.0);
-  return direction.search.pointAt(known_->p_P, motion, s).depth;
+  const auto [step, s] = direction.motion.stepAt(time);
+  return direction.search.pointAt(known_->p_P, direction.motion.motion(step), s).depth;
 }
 
 }  // namespace sdf_ccd

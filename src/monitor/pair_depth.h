@@ -59,6 +59,7 @@ class PairDepth {
     Vector3d p_P;
   };
 
+  void restart();
   void addDirection(const Body& f, const Body& p, bool f_is_a, double resolution);
   double offer(const Place& place, std::size_t step, double s);
   double search(const Interval& times);

@@ -34,6 +34,20 @@ TwoBodyMotion RelativeMotion::motion(std::size_t step) const {
   return {times[k], times[k + 1], bodies_->screw(f_, k), bodies_->screw(p_, k), bounds(step).acceleration};
 }
 
+RelativeMotion::StepTime RelativeMotion::stepAt(double time) const {
+  std::size_t first = 0;
+  for (std::size_t last = steps() - 1; first < last;) {
+    const std::size_t middle = (first + last) / 2;
+    if (time <= motion(middle).t_end) {
+      last = middle;
+    } else {
+      first = middle + 1;
+    }
+  }
+  const TwoBodyMotion step = motion(first);
+  return {first, std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0)};
+}
+
 double RelativeMotion::givenError(const CycleMotion& motion, const PairResult& pair) const {
   if (motion.motion_error.empty()) return 0.0;
   const double error_a = motion.motion_error[pair.body_a], error_b = motion.motion_error[pair.body_b];

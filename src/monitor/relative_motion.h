@@ -32,6 +32,17 @@ class RelativeMotion {
   const RelativeMotionBounds& bounds(std::size_t step) const { return (*bounds_)[step]; }
   TwoBodyMotion motion(std::size_t step) const;
 
+  /// Its first and last time [s].
+  double startTime() const { return motion(0).t_start; }
+  double endTime() const { return motion(steps() - 1).t_end; }
+
+  /// A time within a step.
+  struct StepTime {
+    std::size_t step;
+    double s;  ///< from 0 to 1
+  };
+  StepTime stepAt(double time) const;
+
   /// X_FP at the first and last time.
   const Isometry3d& start() const { return X_FP_start_; }
   const Isometry3d& end() const { return X_FP_end_; }

@@ -63,7 +63,7 @@ SurfacePair::Answer SurfacePair::decideNear(double margin, SeparationMemory& mem
     Answer answer = decideBy(false, margin, memory);
     if (answer.crossing && isBelowThroughout(margin, memory)) {
       answer.crossing->enter = motion_.motion(0).t_start;
-      answer.crossing->exit = motion_.motion(motion_.steps() - 1).t_end;
+      answer.crossing->exit = motion_.endTime();
     }
     return answer;
   }
@@ -211,31 +211,12 @@ Separation SurfacePair::during(std::size_t step, double start, double end, doubl
   SeparationOptions options;
   options.margin = motion_error + deviation_ + kTimeRounding * motion_.reach();
   options.resolution = resolution_;
-  const TwoBodyMotion whole = motion_.motion(step);
-  const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
-  const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
-  const double length = end - start;
-  const TwoBodyMotion part{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration};
-  return test(false, part, options, memory);
-}
-
-/// The step during which a time of the motion is, and its share of the step.
-std::pair<std::size_t, double> SurfacePair::stepAt(double time) const {
-  std::size_t first = 0;
-  for (std::size_t last = motion_.steps() - 1; first < last;) {
-    const std::size_t middle = (first + last) / 2;
-    if (time <= motion_.motion(middle).t_end) {
-      last = middle;
-    } else {
-      first = middle + 1;
-    }
-  }
-  const TwoBodyMotion step = motion_.motion(first);
-  return {first, std::clamp((time - step.t_start) / (step.t_end - step.t_start), 0.0, 1.0)};
+  return withPart(motion_.motion(step), start, end,
+                  [&](const TwoBodyMotion& part) { return test(false, part, options, memory); });
 }
 
 std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_error, SeparationMemory& memory) {
-  const auto [step, share] = stepAt(time);
+  const auto [step, share] = motion_.stepAt(time);
   const Separation found = during(step, share, share, motion_error, memory);
   if (found.state != SeparationState::kCrossing) return std::nullopt;
   ContactPoint contact = contactAt(found, step, share);
@@ -244,7 +225,7 @@ std::optional<ContactPoint> SurfacePair::crossingAt(double time, double motion_e
 }
 
 std::optional<ContactPoint> SurfacePair::findContact(double motion_error, SeparationMemory& memory) {
-  const double start = motion_.motion(0).t_start, end = motion_.motion(motion_.steps() - 1).t_end;
+  const double start = motion_.startTime(), end = motion_.endTime();
   const auto at = [&](double share) { return crossingAt(start + share * (end - start), motion_error, memory); };
   if (auto crossing = crossingAt(end, motion_error, memory)) return crossing;
   if (motion_.travel() > resolution_)
@@ -258,8 +239,8 @@ std::optional<ContactPoint> SurfacePair::findContact(double motion_error, Separa
 std::optional<SurfacePair::Touch> SurfacePair::touch(double from, double to, double motion_error,
                                                      SeparationMemory& memory) {
   constexpr int kMaxHalvings = 60;
-  const auto [first, first_share] = stepAt(from);
-  const auto [last, last_share] = stepAt(to);
+  const auto [first, first_share] = motion_.stepAt(from);
+  const auto [last, last_share] = motion_.stepAt(to);
   const bool backward = to < from;
   std::optional<Touch> touch;
   for (std::size_t step = first;; backward ? --step : ++step) {
@@ -316,7 +297,7 @@ ContactPoint SurfacePair::contactAtEnd(const InsidePoint& inside) const {
 
 ContactPoint SurfacePair::contactInside(const InsidePoint& inside) const {
   ContactPoint contact = contactAtEnd(inside);
-  contact.enter = motion_.motion(0).t_start;
+  contact.enter = motion_.startTime();
   return contact;
 }
 

@@ -96,7 +96,6 @@ class SurfacePair {
   Separation during(std::size_t step, double start, double end, double motion_error, SeparationMemory& memory);
   ContactPoint contactAt(const Separation& found, std::size_t step, double share) const;
   ContactPoint contactAtEnd(const InsidePoint& inside) const;
-  std::pair<std::size_t, double> stepAt(double time) const;
 
   bool f_is_a_;
   const Body *field_, *shell_;  // bodies F and P; P is the smaller one, or F the half-space

@@ -46,6 +46,16 @@ struct TwoBodyMotion {
   Isometry3d X_FP(double s) const { return relativePose(X_WF.pose(s), X_WP.pose(s)); }
 };
 
+/// Calls query() with the part of a motion between two values of s, at one time if they are equal. Its s, from 0 to 1,
+/// is that of the part; its times are those of the whole.
+template <class Query>
+auto withPart(const TwoBodyMotion& whole, double start, double end, const Query& query) {
+  const ScrewMotion X_WF(whole.X_WF.pose(start), whole.X_WF.pose(end));
+  const ScrewMotion X_WP(whole.X_WP.pose(start), whole.X_WP.pose(end));
+  const double length = end - start;
+  return query(TwoBodyMotion{whole.t_start, whole.t_end, X_WF, X_WP, length * length * whole.acceleration});
+}
+
 /// Appends the chords of one interval to the path, whose last chord must end where the interval begins, and updates its
 /// error. Chords end at the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
 /// @param interval  Chord::interval of the chords added.
