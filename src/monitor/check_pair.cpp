@@ -43,12 +43,16 @@ void checkOrExplain(MonitoredPair& pair, PairResult& result, const Check& check)
   }
 }
 
-/// Takes the margin off what check() has set with it.
-void takeOff(double margin, PairResult& result) {
+/// Subtracts the margin from the errors that check() has set with it: it is a wish, not an error.
+void subtractMargin(double margin, PairResult& result) {
   if (!(margin > 0.0)) return;
-  result.error.chord = std::max(0.0, result.error.chord - margin);
-  if (result.contact_error.total() > 0.0)
-    result.contact_error.chord = std::max(0.0, result.contact_error.chord - margin);
+  const auto subtract = [&](double& error) { error = std::max(0.0, error - margin); };
+  subtract(result.error.chord);
+  if (result.contact_error.total() > 0.0) subtract(result.contact_error.chord);
+  if (result.measured) {
+    subtract(result.deepest.depth_error);
+    for (ContactPoint& peak : result.peaks) subtract(peak.depth_error);
+  }
   if (result.verdict == Verdict::kClear) result.clearance += margin;
 }
 
@@ -170,7 +174,7 @@ void checkPair(const PairCycle& cycle, MonitoredPair& pair, PairResult& result) 
   const CancelScope scope(cycle.memory.deadline);
   checkOrExplain(pair, result, [&] {
     check(cycle, pair, result);
-    takeOff(cycle.request.margin, result);
+    subtractMargin(cycle.request.margin, result);
   });
 }
 

@@ -33,8 +33,9 @@ bool proves(const PairResult& pair, const ContactPoint& point, const Interval& i
          (point.depth == 0.0 || pair.contact_error.provesContact(point.depth, point.depth_error));
 }
 
+/// Whether a contact certainly touches within one of its intervals. Measured ones begin and end where surfaces cross.
 bool isProved(const PairResult& pair, const Interval& interval) {
-  return proves(pair, pair.deepest, interval) ||
+  return pair.measured || proves(pair, pair.deepest, interval) ||
          std::any_of(pair.peaks.begin(), pair.peaks.end(),
                      [&](const ContactPoint& point) { return proves(pair, point, interval); });
 }

@@ -161,6 +161,23 @@ TEST(ContactTracker, EachContactOfACycleHasItsOwnDepth) {
   }
 }
 
+/// The second dip is less deep than depths are searched for, but the surfaces certainly cross.
+TEST(ContactTracker, AShallowContactThatIsMeasuredIsACertainOne) {
+  const auto scene =
+      build({body("ball", Primitive(Sphere{0.1})), body("block", Primitive(Box::fromSize({1.0, 1.0, 0.2})), true)},
+            fine(0.01));
+  std::vector<Isometry3d> ball;
+  for (const double depth : {-0.05, 0.02, -0.05, 2e-5, -0.05}) ball.push_back(translation({0, 0, 0.2 - depth}));
+  const CycleMotion motion = test::cycle(0.4, {ball, still(Isometry3d::Identity(), ball.size())});
+  Monitor monitor(scene, soft());
+  const CycleResult result = monitor.run(motion, {});
+  ASSERT_EQ(result.pairs[0].intervals.size(), 2u);
+  ContactTracker tracker(*scene);
+  tracker.update({result, motion, motion.times, std::chrono::seconds(100)});
+  ASSERT_EQ(tracker.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(tracker[i].verdict, Verdict::kContact) << i;
+}
+
 TEST_F(TrackerTest, SamplesSeeWhatTheyHit) {
   world({{"hand", "table"}});
   cycle({{Verdict::kContact, {{0.02, 0.05}}}});

@@ -90,6 +90,24 @@ TEST(PairMeasure, DepthPlaceAndBeginOfALandingAreExact) {
   }
 }
 
+TEST(PairMeasure, AMarginIsNoErrorOfTheDepth) {
+  constexpr double kMargin = 0.01, kDepth = 0.003;
+  for (const double depth : {kDepth, -kDepth}) {  // the second is apart, by less than the margin
+    const auto scene =
+        build({body("slab", Primitive(Box::fromSize({0.6, 0.6, 2.0 * kTop}))), body("ball", Primitive(Sphere{kHalf}))},
+              coarse());
+    Monitor monitor(scene, soft());
+    const Isometry3d ball = translation({0.013, 0.021, kTop + kHalf - depth});
+    CycleRequest request = {};
+    request.margin = kMargin;
+    const PairResult& pair = monitor.run(cycle(0.1, {still(Isometry3d::Identity()), {ball, ball}}), request).pairs[0];
+    EXPECT_TRUE(pair.measured);
+    EXPECT_NEAR(pair.deepest.depth, std::max(0.0, depth), 1e-5);
+    EXPECT_LE(pair.deepest.depth_error, 1e-4);
+    for (const ContactPoint& peak : pair.peaks) EXPECT_LE(peak.depth_error, 1e-4);
+  }
+}
+
 /// A cube swings past with an edge down, deepest halfway.
 TEST(PairMeasure, FindsTheTurnOfATurnedMotion) {
   const auto scene = build(
