@@ -31,7 +31,7 @@ class TimeSearch {
       result_.last_touch = {end_, end_};
       return;
     }
-    std::vector<TimeSample>& samples = samples_;
+    Samples& samples = samples_;
     lookAtSteps(samples);
     if (crossing) samples.push_back({crossing->time, true});
     if (found.deepest.depth > certain_) samples.push_back({found.deepest.time, true});
@@ -42,24 +42,19 @@ class TimeSearch {
     if (std::none_of(samples.begin(), samples.end(), touches)) return setUncertain(found.deepest.time);
     for (auto from = samples.begin(); (from = std::find_if(from, samples.end(), touches)) != samples.end();) {
       const auto after = std::find_if_not(from, samples.end(), touches);
-      const bool is_last = std::none_of(after, samples.end(), touches);
-      setInterval(from == samples.begin()     ? nullptr
-                  : result_.intervals.empty() ? &samples.front()
-                                              : &*(from - 1),
-                  {from->time, (after - 1)->time},
-                  after == samples.end() ? nullptr
-                  : is_last              ? &samples.back()
-                                         : &*after);
+      setInterval(from, after - 1, std::none_of(after, samples.end(), touches));
       from = after;
     }
   }
 
  private:
+  using Samples = std::vector<TimeSample>;
+
   TimeSample at(double time) const {
     return {time, depth_.depthAt(time) > certain_ || surfaces_.crossingAt(time, result_.error.chord, memory_)};
   }
 
-  static void sort(std::vector<TimeSample>& samples) {
+  static void sort(Samples& samples) {
     std::sort(samples.begin(), samples.end(), [](const TimeSample& a, const TimeSample& b) {
       return a.time != b.time ? a.time < b.time : a.touches > b.touches;
     });
@@ -68,7 +63,7 @@ class TimeSearch {
   }
 
   /// The ends of steps, at most some dozens.
-  void lookAtSteps(std::vector<TimeSample>& samples) const {
+  void lookAtSteps(Samples& samples) const {
     constexpr std::size_t kMost = 64;
     const RelativeMotion& motion = surfaces_.motion();
     samples.assign({at(start_), at(end_)});
@@ -78,21 +73,26 @@ class TimeSearch {
   }
 
   /// The crossings nearest to the times at which they are not known to touch.
-  void addCrossings(std::vector<TimeSample>& samples) const {
-    const auto add = [&](double from, double to) {
-      const auto touch = between(from, to);
-      if (touch && touch->crossing) samples.push_back({*touch->crossing, true});
-    };
+  void addCrossings(Samples& samples) const {
     for (std::size_t i = samples.size() - 1; i > 0; --i) {
-      const TimeSample from = samples[i - 1], to = samples[i];
-      if (!from.touches) add(from.time, to.time);
-      if (!to.touches) add(to.time, from.time);
+      const auto add = [&](std::optional<double> crossing) {
+        if (crossing) samples.push_back({*crossing, true});
+        return crossing;
+      };
+      double start = samples[i - 1].time;
+      const double end = samples[i].time;
+      if (!samples[i - 1].touches) {
+        const std::optional<double> crossing = add(searchFrom(samples[i - 1], samples[i - 1].apart_until, end));
+        if (samples[i - 1].apart_until == end) samples[i].apart_since = start;
+        start = crossing.value_or(start);
+      }
+      if (!samples[i].touches && !samples[i].apart_since) add(searchFrom(samples[i], samples[i].apart_since, start));
     }
     sort(samples);
   }
 
   /// Between two times at which they touch.
-  void lookIntoGaps(std::vector<TimeSample>& samples) const {
+  void lookIntoGaps(Samples& samples) const {
     constexpr std::size_t kFew = 16;
     const int parts = samples.size() < kFew ? kParts : 2;
     for (std::size_t i = samples.size() - 1; i > 0; --i) {
@@ -103,34 +103,44 @@ class TimeSearch {
     sort(samples);
   }
 
-  std::optional<SurfacePair::Touch> between(double from, double to) const {
-    return surfaces_.touch(from, to, result_.error.chord, memory_);
+  /// Searches from a time at which they are not known to touch, forward or backward.
+  /// @param apart  receives the time up to which they are apart. @return the first crossing.
+  std::optional<double> searchFrom(const TimeSample& sample, std::optional<double>& apart, double to) const {
+    const auto touch = surfaces_.touch(sample.time, to, result_.error.chord, memory_);
+    apart = touch ? touch->apart : to;
+    return touch ? touch->crossing : std::nullopt;
   }
 
-  /// @param before, after  where they are not known to touch, nearest to the contact or, of the first and last one, at
-  ///                       the ends of the motion; null if the contact reaches these ends.
-  void setInterval(const TimeSample* before, Interval contact, const TimeSample* after) {
-    Interval begin{contact.enter, contact.enter}, end{contact.exit, contact.exit};
-    if (before) {
-      const auto touch = between(before->time, contact.enter);
-      if (touch) begin = {touch->apart, touch->crossing.value_or(contact.enter)};
+  /// The time up to which they are apart on the way from one sample to another.
+  double apartUpTo(Samples::iterator from, Samples::iterator to) const {
+    const int direction = from < to ? 1 : -1;
+    for (; from != to; from += direction) {
+      std::optional<double>& apart = direction > 0 ? from->apart_until : from->apart_since;
+      const double next = (from + direction)->time;
+      if (!apart) searchFrom(*from, apart, next);
+      if (apart != next) return *apart;
     }
-    if (after) {
-      const auto touch = between(after->time, contact.exit);
-      if (touch) end = {touch->crossing.value_or(contact.exit), touch->apart};
-    }
+    return to->time;
+  }
+
+  /// @param first, last  samples between which they touch, with nothing else between them.
+  void setInterval(Samples::iterator first, Samples::iterator last, bool is_last) {
+    const auto start = samples_.begin(), end = samples_.end() - 1;
+    const bool is_first = result_.intervals.empty();
+    const double enter = first == start ? start_ : apartUpTo(is_first ? start : first - 1, first);
+    const double exit = last == end ? end_ : apartUpTo(is_last ? end : last + 1, last);
     // Bodies may be inside each other where their surfaces are apart.
-    if (result_.intervals.empty() && (!before || areApart(start_))) result_.first_touch = begin;
-    result_.last_touch.reset();
-    if (!after || areApart(end_)) result_.last_touch = end;
-    result_.intervals.push_back({begin.enter, end.exit});
+    if (is_first && (first == start || areApart(start_))) result_.first_touch = {enter, first->time};
+    if (is_last && (last == end || areApart(end_))) result_.last_touch = {last->time, exit};
+    result_.intervals.push_back({enter, exit});
   }
 
   /// Nothing is certain, but the surfaces come close.
   void setUncertain(double deepest) {
-    const auto first = between(start_, end_), last = between(end_, start_);
-    result_.first_touch = {first ? first->apart : start_, kInfinity};
-    result_.last_touch = {-kInfinity, last ? last->apart : end_};
+    const auto first = samples_.begin(), last = samples_.end() - 1;
+    const double enter = apartUpTo(first, last), exit = apartUpTo(last, first);
+    result_.first_touch = {enter < end_ ? enter : start_, kInfinity};
+    result_.last_touch = {-kInfinity, exit > start_ ? exit : end_};
     result_.intervals.push_back(
         {std::min(deepest, result_.first_touch->enter), std::max(deepest, result_.last_touch->exit)});
   }
@@ -145,7 +155,7 @@ class TimeSearch {
   const PairDepth& depth_;
   const double certain_;
   SeparationMemory& memory_;
-  std::vector<TimeSample>& samples_;
+  Samples& samples_;
   PairResult& result_;
   const double start_, end_;
 };

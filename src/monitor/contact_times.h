@@ -12,6 +12,9 @@ namespace sdf_ccd {
 struct TimeSample {
   double time;   ///< [s]
   bool touches;  ///< certainly
+  /// If known, and it does not touch: they are apart from then until this, up to the next sample at most, and since
+  /// this, from the last sample at least [s].
+  std::optional<double> apart_until = {}, apart_since = {};
 };
 
 /// Sets when two bodies touch during a motion: the intervals of the result, and its first and last touch.
