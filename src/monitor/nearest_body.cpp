@@ -13,6 +13,7 @@
 #include "monitor/nearest_body.h"
 #include "scene/mesh_distance.h"
 #include "scene/union_depth.h"
+#include "surface/depth_solid.h"
 
 namespace sdf_ccd {
 namespace {
@@ -20,6 +21,34 @@ namespace {
 constexpr std::size_t kMaxTriangles = 500'000;  // of a mesh without a field, which take up to 0.5 GB
 
 using MeshPointer = std::shared_ptr<const TriangleMesh>;
+using SolidPointer = std::shared_ptr<const DepthSolid>;
+
+/// Of a body as a whole; null if it has none that is certain. A single primitive is more exact by its formula.
+SolidPointer exactSolidOf(const Body& body, const BodyDescription& description) {
+  const bool is_primitive =
+      description.geometry.size() == 1 && std::holds_alternative<Primitive>(description.geometry.front().shape);
+  return is_primitive || !body.half_spaces.empty() || body.inside_is_doubtful ? nullptr : body.solid;
+}
+
+/// Whether a field has to tell, as the triangles are too many.
+bool needsField(const BodyDescription& description) {
+  const auto isLarge = [](const GeometryDescription& geometry) {
+    const auto* mesh = std::get_if<MeshPointer>(&geometry.shape);
+    return mesh && (*mesh)->triangles.size() > kMaxTriangles;
+  };
+  return std::any_of(description.geometry.begin(), description.geometry.end(), isLarge);
+}
+
+/// Its gradient is in the frame of the body.
+FieldSample sampleOf(const DepthSolid& solid, const Vector3d& p_B) {
+  constexpr double kRounding = 1e-12;
+  const PointDepth depth = solid.at(solid.X_BG().inverse() * p_B);
+  FieldSample sample;
+  sample.value = -depth.depth;
+  sample.gradient = solid.X_BG().linear() * depth.out;
+  sample.error = solid.deviation() + kRounding * (std::abs(depth.depth) + p_B.norm());
+  return sample;
+}
 
 }  // namespace
 
@@ -63,7 +92,7 @@ void dropUnused(MeshDistances& meshes) {
   meshes.dropUnused();
 }
 
-/// One element of a body: a primitive, a mesh without a field, a field, or a box that contains what is not known.
+/// One element of a body: a primitive, a mesh, a field, or a box that contains what is not known.
 class NearestBodySearch::Element {
  public:
   Element(const Isometry3d& X_BG, const AlignedBox3d& box) : X_BG_(X_BG), X_GB_(X_BG.inverse()), source_(box) {}
@@ -107,10 +136,12 @@ class NearestBodySearch::Element {
 
 NearestBodySearch::NearestBodySearch(std::shared_ptr<const Scene> scene,
                                      std::shared_ptr<const SceneDescription> description,
-                                     std::shared_ptr<MeshDistances> meshes)
+                                     std::shared_ptr<MeshDistances> meshes, bool approximate)
     : scene_(std::move(scene)),
       description_(std::move(description)),
       meshes_(meshes ? std::move(meshes) : makeMeshDistances()),
+      approximate_(approximate),
+      solids_(scene_->bodies.size()),
       elements_(scene_->bodies.size()) {
   meshes_->dropUnused();
 }
@@ -119,15 +150,20 @@ NearestBodySearch::~NearestBodySearch() = default;
 
 std::string NearestBodySearch::prepare(std::size_t body) {
   const Body& ready = scene_->bodies[body];
+  const BodyDescription& description = description_->bodies[body];
   std::vector<Element> elements;
   std::string doubts;
   if (!ready.failure.empty()) return "ignored: " + ready.failure;
-  for (const BodyPart& part : ready.parts) elements.emplace_back(part.X_BG, part.field);
+  if (approximate_ || needsField(description)) {
+    for (const BodyPart& part : ready.parts) elements.emplace_back(part.X_BG, part.field);
+  }
   if (!elements.empty()) {
     elements_[body] = std::move(elements);
     return ready.warning;
   }
-  for (const GeometryDescription& geometry : description_->bodies[body].geometry) {
+  solids_[body] = exactSolidOf(ready, description);
+  if (solids_[body]) return ready.warning;
+  for (const GeometryDescription& geometry : description.geometry) {
     if (const auto* primitive = std::get_if<Primitive>(&geometry.shape)) {
       elements.emplace_back(geometry.X_BG, DistanceField(*primitive));
       continue;
@@ -154,7 +190,7 @@ std::string NearestBodySearch::prepare(std::size_t body) {
 }
 
 bool NearestBodySearch::isIgnored(std::size_t body) const {
-  return elements_[body].empty();
+  return !solids_[body] && elements_[body].empty();
 }
 
 /// Upper bound of a point's depth in the union of a body's elements [m]; of one that is outside, minus infinity.
@@ -184,18 +220,24 @@ NearestBody NearestBodySearch::nearest(const std::vector<Isometry3d>& X_WB, cons
   nearest.distance = kInfinity;
   double low = kInfinity;  // lower bound of all distances
   for (std::size_t b = 0; b < elements_.size(); ++b) {
-    if (elements_[b].empty()) continue;
+    if (isIgnored(b)) continue;
     const Matrix3d& R_WB = X_WB[b].linear();
     const Vector3d p_B = R_WB.transpose() * (p_W - X_WB[b].translation());
+    const auto offer = [&](const FieldSample& sample) {
+      low = std::min(low, sample.value - sample.error);
+      if (!(sample.value < nearest.distance)) return;
+      nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * sample.gradient};
+    };
+    if (const DepthSolid* const solid = solids_[b].get()) {
+      const double at_least = solid->distanceBound(solid->X_BG().inverse() * p_B) - solid->deviation();
+      if (!(at_least > nearest.distance)) offer(sampleOf(*solid, p_B));
+      continue;
+    }
     for (const Element& element : elements_[b]) {
       const Vector3d p_G = element.toElement(p_B);
       const double at_least = element.lowerBound(p_G);
       if (element.isUnknown()) low = std::min(low, at_least);
-      if (element.isUnknown() || at_least > nearest.distance) continue;
-      const FieldSample sample = element.sample(p_G);
-      low = std::min(low, sample.value - sample.error);
-      if (sample.value >= nearest.distance) continue;
-      nearest = {static_cast<int>(b), sample.value, sample.error, R_WB * sample.gradient};
+      if (!element.isUnknown() && !(at_least > nearest.distance)) offer(element.sample(p_G));
     }
     low = std::min(low, -greatestDepth(elements_[b], p_B));
   }

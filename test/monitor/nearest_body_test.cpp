@@ -16,12 +16,14 @@ using namespace test;
 /// A search in which all bodies are prepared.
 class Search {
  public:
-  Search(const SceneDescription& description, const BodyOptions& options)
-      : scene(build(description, options)), search_(scene, std::make_shared<const SceneDescription>(description)) {
+  Search(const SceneDescription& description, const BodyOptions& options, bool approximate)
+      : scene(build(description, options)),
+        search_(scene, std::make_shared<const SceneDescription>(description), nullptr, approximate) {
     for (std::size_t body = 0; body < scene->bodies.size(); ++body) notes.push_back(search_.prepare(body));
   }
-  explicit Search(std::vector<BodyDescription> bodies, const BodyOptions& options = fine(0.05))
-      : Search(SceneDescription{std::move(bodies), {}}, options) {}
+  explicit Search(std::vector<BodyDescription> bodies, const BodyOptions& options = fine(0.05),
+                  bool approximate = false)
+      : Search(SceneDescription{std::move(bodies), {}}, options, approximate) {}
 
   NearestBody operator()(const std::vector<Isometry3d>& X_WB, const Vector3d& p_W) const {
     return search_.nearest(X_WB, p_W);
@@ -74,7 +76,7 @@ TEST(NearestBody, ErrorHoldsForEitherSideOfAnOpenMesh) {
   for (const bool has_field : {true, false}) {
     std::vector<BodyDescription> bodies = {bin};
     if (has_field) bodies.push_back(body("ball", Primitive(Sphere{0.1})));
-    const Search search(bodies);
+    const Search search(bodies, fine(0.05), has_field);
     ASSERT_EQ(search.scene->bodies[0].parts.empty(), !has_field);
     EXPECT_NE(search.notes[0].find("inside and outside are uncertain"), std::string::npos) << search.notes[0];
     std::vector<Isometry3d> X_WB(bodies.size(), translation({9, 0, 0}));
@@ -130,6 +132,32 @@ TEST(NearestBody, NeedsNoField) {
     ASSERT_NEAR(next.distance - found.distance, step, 1e-3 * step);
   }
   EXPECT_GT(inside, 20);
+}
+
+/// A field of coarse cells rounds the corner of a cube; the cube's triangles do not.
+TEST(NearestBody, IsExactWhereFieldsAreCoarse) {
+  const std::vector<BodyDescription> bodies = {body("cube", meshShape(boxMesh({0.1, 0.1, 0.1}))),
+                                               body("ball", Primitive(Sphere{0.1}))};
+  BodyOptions options = fine(0.05);
+  options.field.cells = 5;
+  const Search exact(bodies, options), approximate(bodies, options, true);
+  ASSERT_FALSE(exact.scene->bodies[0].parts.empty());
+  const std::vector<Isometry3d> X_WB = {Isometry3d::Identity(), translation({9, 0, 0})};
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-0.15, 0.15);
+  double worst = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d p(uniform(random), uniform(random), uniform(random));
+    const Vector3d q = p.cwiseAbs() - Vector3d::Constant(0.1);
+    const double truth = q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0);
+    const NearestBody found = exact(X_WB, p), by_field = approximate(X_WB, p);
+    ASSERT_NEAR(found.distance, truth, 1e-12 + found.error);
+    ASSERT_LT(found.error, 1e-9);
+    ASSERT_NEAR(found.gradient_W.norm(), 1.0, 1e-12);
+    ASSERT_NEAR(by_field.distance, truth, by_field.error);
+    worst = std::max(worst, std::abs(by_field.distance - truth));
+  }
+  EXPECT_GT(worst, 1e-4);
 }
 
 TEST(NearestBody, LeavesOutWhatItCannotPrepare) {

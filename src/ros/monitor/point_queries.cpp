@@ -30,7 +30,7 @@ void Queries::findDistances(const QueryPoints::Request& request, QueryPoints::Re
   std::vector<Isometry3d> X_WB;
   std::vector<std::string> missing;
   posesAt(history_, world->bodies, request.header.stamp, X_WB, missing);
-  NearestBodySearch search(world->snapshot->scene, world->snapshot->description, meshes_);
+  NearestBodySearch search(world->snapshot->scene, world->snapshot->description, meshes_, request.approximate);
   for (std::size_t body = 0; body < missing.size(); ++body) {
     const Body& description = scene.bodies[body];
     if (description.failure.empty() && !missing[body].empty())
