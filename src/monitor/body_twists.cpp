@@ -131,7 +131,7 @@ void BodyTwists::forget() {
   }
 }
 
-void BodyTwists::take(const BodyTwists& other, const std::vector<int>& before) {
+void BodyTwists::adopt(const BodyTwists& other, const std::vector<int>& before) {
   origin_ = other.origin_;
   endRest();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

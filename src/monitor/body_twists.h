@@ -71,7 +71,7 @@ class BodyTwists {
 
   /// Takes over the bodies' data from another scene between two cycles, without allocating. All other bodies keep their
   /// poses. @param before  per body: its index in the other scene; −1 if it is not there.
-  void take(const BodyTwists& other, const std::vector<int>& before);
+  void adopt(const BodyTwists& other, const std::vector<int>& before);
 
   /// Upper bound of the displacement of a body's points from its pose here to that in another scene [m], where it has
   /// the index `other_body`; infinite if one of the poses is not known.

@@ -68,7 +68,7 @@ void Monitor::Impl::checkInTime(const CycleMotion& motion, const CycleRequest& r
   const auto forEachInQueue = [&](const auto& visit) {
     std::atomic<std::size_t> next{0};
     const auto work = [&](int) {
-      std::unique_ptr<PairMemory> taken = memory->take();
+      std::unique_ptr<PairMemory> taken = memory->acquire();
       for (std::size_t k = next++; k < queue.size(); k = next++)
         visit(k, static_cast<std::size_t>(queue[k].pair), *taken);
       taken->deadline = Clock::time_point::max();

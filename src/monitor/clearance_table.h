@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
-#include "body_twists.h"
+#include "clearance_scan.h"
 
 namespace sdf_ccd {
 
@@ -22,24 +21,6 @@ inline bool hasFailedBody(const Scene& scene, const PlannedPair& pair) {
   return !scene.bodies[pair.body_a].failure.empty() || !scene.bodies[pair.body_b].failure.empty();
 }
 
-/// Summary of a scan over the pairs that are not due.
-struct SkippedPairs {
-  float error = -1.0F;  ///< upper bound of their error bounds [m]; negative if there are none
-  int pair = -1;        ///< the pair that comes nearest to it
-  int soon = -1;        ///< a pair that two more cycles like this one would make due, the one by the largest distance
-};
-
-/// Pairs of one body with the kTwistLanes bodies of a group.
-struct PairBlock {
-  std::int32_t rows_a;  ///< twistOffset() of the one body
-  std::int32_t group;   ///< of the others
-  /// The smallest of the pairs' clearances at their last scan; −∞ if they must be scanned again [m].
-  float least = -std::numeric_limits<float>::infinity();
-  float path = 0.0F;       ///< bound of the one body's path since then, in which the others rested [m]
-  float error = 0.0F;      ///< the largest error bound, without the motion's error [m]
-  std::int32_t worst = 0;  ///< the slot of the pair with that bound
-};
-
 /// Stores the clearance of every pair: how far its bodies may still move relative to each other before it must be
 /// tested.
 ///
@@ -51,8 +32,6 @@ struct PairBlock {
 /// one body. So long as that leaves the smallest of the clearances far from used up, only this path is added up.
 class ClearanceTable {
  public:
-  static constexpr float kUnknown = -std::numeric_limits<float>::infinity();
-
   /// @throws std::invalid_argument if two pairs are of the same bodies.
   ClearanceTable(const Scene& scene, const BodyTwists& bodies);
 
@@ -66,21 +45,21 @@ class ClearanceTable {
   /// Sets the clearance of a pair that a test has found clear, and whose bodies are followed from there on.
   /// @param clearance  lower bound of the distance [m].
   void set(int pair, double clearance);
-  /// Until set() is called, SkippedPairs::soon is not the pair.
-  void pauseSoon(int pair);
+  /// Until set() is called, SkippedPairs::due_next is not the pair.
+  void pauseDueNext(int pair);
   void forget(int pair);
   void forget();
 
   /// Takes over clearances from another table between two cycles. @param pairs_now  per pair of the other table: its
   /// index in this one; −1 if it is not there.
-  void take(const ClearanceTable& other, const std::vector<int>& pairs_now);
+  void adopt(const ClearanceTable& other, const std::vector<int>& pairs_now);
 
   /// Subtracts an upper bound of the bodies' relative displacement between two cycles [m]. The clearance is forgotten
   /// if it is used up: one body may be inside the other then, though their surfaces are apart.
-  void spend(int pair, double displacement);
+  void consume(int pair, double displacement);
 
   /// Whether the pair has a known clearance.
-  bool isKnown(int pair) const { return clearance_[slot(pair)] != kUnknown; }
+  bool isKnown(int pair) const { return clearance_[slot(pair)] != kUnknownClearance; }
 
   /// A lower bound of the distance after the last scan; for a due pair, before it [m].
   double clearance(int pair) const { return clearanceIn(slot(pair)); }
@@ -99,19 +78,19 @@ class ClearanceTable {
 
   static std::size_t blockOf(std::size_t slot) { return slot / kTwistLanes; }
   double clearanceIn(std::size_t slot) const;
-  float& settled(int pair);
-  void settle(PairBlock& block);
+  float& changeable(int pair);
+  void endWait(PairBlock& block);
 
   std::vector<PairBlock> blocks_;
   std::vector<std::int32_t> slots_;  // per pair
   std::vector<std::int32_t> pairs_;  // per slot; -1: no pair
   std::vector<float> clearance_;     // per slot [m]
-  std::vector<float> spent_;         // per slot: displacement in the cycle's steps up to now [m]
+  std::vector<float> consumed_;      // per slot: displacement in the cycle's steps up to now [m]
   std::vector<float> error_;         // per slot [m]
-  std::vector<float> soon_;          // per slot: cycles in which SkippedPairs::soon would be due; else kPaused
+  std::vector<float> due_next_;      // per slot: cycles in which SkippedPairs::due_next would be due; else kPaused
   std::vector<float> slack_;         // per slot: clearance that remains after the last scan [m]
   std::vector<std::size_t> due_blocks_;
-  bool has_spent_ = false;
+  bool has_consumed_ = false;
 };
 
 }  // namespace sdf_ccd

@@ -127,12 +127,12 @@ Monitor::Impl::Clock::time_point Monitor::Impl::endOf(const CycleRequest& reques
 
 const CycleResult& Monitor::Impl::run(const CycleMotion& motion, const CycleRequest& request) {
   const auto start = Clock::now();
-  schedule->take(motion, request.margin, known.pairs);
+  schedule->findDue(motion, request.margin, known.pairs);
   takeSpans(motion);
   takeSkipped(request);
   checkDue(motion, request, start);
   measureSoon(motion, endOf(request, start));
-  schedule->settle(motion, known.pairs);
+  schedule->finish(motion, known.pairs);
   summarise(motion.times.size() - 1);
   result.run_time = secondsSince(start);
   return result;
@@ -197,10 +197,10 @@ bool Monitor::Impl::isSmall(const std::vector<DuePair>& due) const {
 void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& request, Clock::time_point start) {
   const std::vector<DuePair>& due = schedule->due();
   if (due.empty()) return;
-  bodies->take(motion, result.pairs, due);
+  bodies->sweepDue(motion, result.pairs, due);
   if (request.max_time > 0.0) return checkInTime(motion, request, endOf(request, start));
   const auto checkRange = [&](std::size_t first, std::size_t last) {
-    std::unique_ptr<PairMemory> taken = memory->take();
+    std::unique_ptr<PairMemory> taken = memory->acquire();
     for (std::size_t k = first; k < last; ++k) check(due[k], motion, request, *taken);
     memory->giveBack(std::move(taken));
   };
@@ -209,15 +209,15 @@ void Monitor::Impl::checkDue(const CycleMotion& motion, const CycleRequest& requ
   parallelRanges(std::size_t{0}, due.size(), checkRange);
 }
 
-/// Uses a cycle without a due pair to measure one that would be due soon: otherwise many may be due at the same time.
+/// Uses a cycle without a due pair to measure one that would be due next: otherwise many may be due at the same time.
 void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point until) {
-  const int pair = schedule->soon();
+  const int pair = schedule->dueNext();
   if (pair < 0 || !schedule->due().empty()) return;
   const CancelScope scope(until);
   const auto i = static_cast<std::size_t>(pair);
   queue.assign(1, {0.0F, pair});
-  bodies->take(motion, result.pairs, queue);
-  std::unique_ptr<PairMemory> taken = memory->take();
+  bodies->sweepDue(motion, result.pairs, queue);
+  std::unique_ptr<PairMemory> taken = memory->acquire();
   std::optional<double> clearance;
   try {
     clearance = measureClearance(cycleOf(motion, {}, *taken), *known.pairs[i], result.pairs[i]);
@@ -225,7 +225,7 @@ void Monitor::Impl::measureSoon(const CycleMotion& motion, Clock::time_point unt
   } catch (const Cancelled&) {
   }
   memory->giveBack(std::move(taken));
-  schedule->raiseSoon(clearance);
+  schedule->raiseDueNext(clearance);
 }
 
 void Monitor::Impl::summarise(std::size_t end) {

@@ -81,7 +81,7 @@ void Monitor::adopt(MonitorChange& change) {
   MonitorChange::Impl& made = *change.impl_;
   if (made.before != impl_->scene) throw std::logic_error("monitor: the change was prepared from another scene");
   Impl& next = *made.monitor;
-  next.schedule->take(*impl_->schedule, made.difference);
+  next.schedule->adopt(*impl_->schedule, made.difference);
   for (const int pair : impl_->last_due) {
     const int now = made.difference.pairsNow()[static_cast<std::size_t>(pair)];
     if (now < 0) continue;

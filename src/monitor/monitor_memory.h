@@ -11,7 +11,7 @@ namespace sdf_ccd {
 /// Scratch memory, taken for a few pairs and given back, so that there is one per thread that checks pairs at the same
 /// time. The last one given back is taken first.
 struct MonitorMemory {
-  std::unique_ptr<PairMemory> take() {
+  std::unique_ptr<PairMemory> acquire() {
     const std::lock_guard<std::mutex> lock(mutex);
     if (idle.empty()) return std::make_unique<PairMemory>();
     std::unique_ptr<PairMemory> last = std::move(idle.back());

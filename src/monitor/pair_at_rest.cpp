@@ -40,7 +40,7 @@ std::shared_ptr<const RestingAnswer> findAtRest(const PairCycle& cycle, const Is
   scene.bodies.push_back(pair.a->body);
   scene.bodies.push_back(pair.b->body);
   SweptBodies bodies(scene);
-  bodies.take(motion, results, {{0.0F, 0}});
+  bodies.sweepDue(motion, results, {{0.0F, 0}});
   PairMemory memory;
   memory.deadline = cycle.memory.deadline;
   MonitoredPair fresh = pair;

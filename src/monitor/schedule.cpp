@@ -43,7 +43,7 @@ void Schedule::findWhole(const CycleMotion& motion) {
   }
 }
 
-const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double margin, const MonitoredPairs& pairs) {
+const std::vector<DuePair>& Schedule::findDue(const CycleMotion& motion, double margin, const MonitoredPairs& pairs) {
   findWhole(motion);
   bodies_.begin(motion, is_whole_);
   for (std::size_t i = 0; i < pairs.size() && !all_whole_; ++i) {
@@ -56,7 +56,7 @@ const std::vector<DuePair>& Schedule::take(const CycleMotion& motion, double mar
     if (k > 0) bodies_.step(motion, k);
     if (k + 1 < steps) table_.advance(bodies_);
   }
-  quiet_ = table_.finish(bodies_, due_, margin);
+  skipped_ = table_.finish(bodies_, due_, margin);
   for (const DuePair& due : due_) handOver(motion, due.pair, pairs[static_cast<std::size_t>(due.pair)]->verdict);
   return due_;
 }
@@ -68,7 +68,7 @@ void Schedule::handOver(const CycleMotion& motion, int pair, PairVerdict& verdic
   verdict.remember(table_.clearance(pair), bodies_.last(motion, planned.body_a), bodies_.last(motion, planned.body_b));
 }
 
-void Schedule::settle(const CycleMotion& motion, const MonitoredPairs& pairs) {
+void Schedule::finish(const CycleMotion& motion, const MonitoredPairs& pairs) {
   bodies_.end(motion, is_whole_);
   for (const DuePair& due : due_) {
     const auto pair = static_cast<std::size_t>(due.pair);
@@ -85,7 +85,7 @@ double Schedule::motionError(int pair) const {
   return bodies_.poseError(planned.body_a, planned.body_b);
 }
 
-void Schedule::spendDisplacement(const Schedule& other, const SceneDifference& difference) {
+void Schedule::consumeDisplacement(const Schedule& other, const SceneDifference& difference) {
   for (const int pair : difference.newPairs()) {
     if (!table_.holds(pair) || !table_.isKnown(pair)) continue;
     const PlannedPair& planned = scene_.pairs[static_cast<std::size_t>(pair)];
@@ -94,14 +94,14 @@ void Schedule::spendDisplacement(const Schedule& other, const SceneDifference& d
       const int before = difference.bodiesBefore()[static_cast<std::size_t>(body)];
       if (before >= 0) displacement += bodies_.displacement(body, other.bodies_, before);
     }
-    table_.spend(pair, displacement);
+    table_.consume(pair, displacement);
   }
 }
 
-void Schedule::take(const Schedule& other, const SceneDifference& difference) {
-  spendDisplacement(other, difference);
-  bodies_.take(other.bodies_, difference.bodiesBefore());
-  table_.take(other.table_, difference.pairsNow());
+void Schedule::adopt(const Schedule& other, const SceneDifference& difference) {
+  consumeDisplacement(other, difference);
+  bodies_.adopt(other.bodies_, difference.bodiesBefore());
+  table_.adopt(other.table_, difference.pairsNow());
   all_whole_ = other.all_whole_;
   if (all_whole_) is_whole_.swap(is_paired_);
 }

@@ -22,7 +22,7 @@ class Schedule {
   Schedule(const Scene& scene, const MonitoredPairs& pairs);
 
   /// Processes a cycle's motion. @param margin  as CycleRequest::margin. @return the due pairs, the most urgent first.
-  const std::vector<DuePair>& take(const CycleMotion& motion, double margin, const MonitoredPairs& pairs);
+  const std::vector<DuePair>& findDue(const CycleMotion& motion, double margin, const MonitoredPairs& pairs);
 
   /// Whether all pairs are checked over the whole cycle that was processed last.
   bool isAllWhole() const { return all_whole_; }
@@ -33,18 +33,18 @@ class Schedule {
   const std::vector<int>& failed() const { return failed_; }
 
   /// The pair with the largest error bound among those that are not due; −1 if all are due.
-  int worstSkipped() const { return quiet_.pair; }
+  int worstSkipped() const { return skipped_.pair; }
   /// Upper bound of all of their error bounds [m].
-  double worstError() const { return quiet_.error; }
+  double worstError() const { return skipped_.error; }
 
-  /// A pair that is not due but will be soon, if the motion continues; −1 if there is none.
-  int soon() const { return quiet_.soon; }
+  /// A pair that is not due but will be next, if the motion continues; −1 if there is none.
+  int dueNext() const { return skipped_.due_next; }
 
-  /// Raises the clearance of soon(), if a larger one has been measured; otherwise the pair is not named again before it
-  /// is due. @param clearance  lower bound of the distance at the cycle's end [m]; none if it could not be measured.
-  void raiseSoon(std::optional<double> clearance) {
-    if (clearance && *clearance > table_.clearance(soon())) return table_.set(soon(), *clearance);
-    table_.pauseSoon(soon());
+  /// Raises the clearance of dueNext(), if a larger one has been measured; otherwise the pair is not named again before
+  /// it is due. @param clearance  lower bound of the distance at the cycle's end [m]; none if it could not be measured.
+  void raiseDueNext(std::optional<double> clearance) {
+    if (clearance && *clearance > table_.clearance(dueNext())) return table_.set(dueNext(), *clearance);
+    table_.pauseDueNext(dueNext());
   }
 
   /// For a pair that is not due: upper bound of the motion's part of its error, and lower bound of its distance at the
@@ -53,19 +53,19 @@ class Schedule {
   double clearance(int pair) const { return table_.clearance(pair); }
 
   /// Moves the clearances that the checks of the due pairs have found into the table, where the bodies are followed.
-  void settle(const CycleMotion& motion, const MonitoredPairs& pairs);
+  void finish(const CycleMotion& motion, const MonitoredPairs& pairs);
 
   void forget();
 
   /// Takes over the data of another schedule between two cycles, without allocating. New pairs whose clearance this
   /// schedule knows from an earlier cycle keep what is left of it, now that the common bodies are elsewhere.
   /// @param difference  of the other schedule's scene and this one's.
-  void take(const Schedule& other, const SceneDifference& difference);
+  void adopt(const Schedule& other, const SceneDifference& difference);
 
  private:
   bool isWhole(const CycleMotion& motion, std::size_t pair) const;
   void findWhole(const CycleMotion& motion);
-  void spendDisplacement(const Schedule& other, const SceneDifference& difference);
+  void consumeDisplacement(const Schedule& other, const SceneDifference& difference);
   void handOver(const CycleMotion& motion, int pair, PairVerdict& verdict) const;
 
   const Scene& scene_;
@@ -73,8 +73,8 @@ class Schedule {
   ClearanceTable table_;
   std::vector<DuePair> due_;
   std::vector<int> failed_;
-  SkippedPairs quiet_;
-  std::vector<char> is_paired_;  // per body: it is in a pair; swapped with is_whole_ by take()
+  SkippedPairs skipped_;
+  std::vector<char> is_paired_;  // per body: it is in a pair; swapped with is_whole_ by adopt()
   std::vector<char> is_whole_;   // per body: a pair of it is checked over the whole cycle
   bool all_whole_ = false;
 };

@@ -12,7 +12,7 @@ CycleSummary::CycleSummary(CycleResult& result, std::size_t end) : result_(resul
   result.checked = result.skipped = result.not_checked = result.delayed = result.postponed = result.incomplete = 0;
 }
 
-void CycleSummary::take(const ErrorSources& error) {
+void CycleSummary::include(const ErrorSources& error) {
   if (error.total() <= result_.error_bound) return;
   result_.error = error;
   result_.error_bound = error.total();
@@ -32,7 +32,7 @@ void CycleSummary::add(int index) {
   }
   ++(pair.skipped ? result_.skipped : pair.postponed ? result_.postponed : result_.checked);
   result_.incomplete += pair.incomplete ? 1 : 0;
-  take(pair.error);
+  include(pair.error);
   result_.contact_error = std::max(result_.contact_error, pair.contact_error.total());
 }
 
@@ -40,7 +40,7 @@ void CycleSummary::addSkipped(int count, const ErrorSources& error) {
   if (count == 0) return;
   worst_.add(Verdict::kClear);
   result_.skipped += count;
-  take(error);
+  include(error);
 }
 
 void CycleSummary::addFailed() {

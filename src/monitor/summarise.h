@@ -26,7 +26,7 @@ class CycleSummary {
   void finish();
 
  private:
-  void take(const ErrorSources& error);
+  void include(const ErrorSources& error);
 
   CycleResult& result_;
   std::size_t end_;

@@ -20,8 +20,8 @@ void requireNear(const std::string& name, const Isometry3d& X_WB) {
 
 }  // namespace
 
-void SweptBodies::take(const CycleMotion& motion, const std::vector<PairResult>& pairs,
-                       const std::vector<DuePair>& due) {
+void SweptBodies::sweepDue(const CycleMotion& motion, const std::vector<PairResult>& pairs,
+                           const std::vector<DuePair>& due) {
   times_ = &motion.times;
   for (const int body : taken_) bodies_[body].is_taken = false;
   taken_.clear();

@@ -20,7 +20,7 @@ class SweptBodies {
 
   /// Sets a cycle's motion, for the bodies of due pairs and the times that the spans of these pairs need.
   /// @param pairs  all pairs of the scene.
-  void take(const CycleMotion& motion, const std::vector<PairResult>& pairs, const std::vector<DuePair>& due);
+  void sweepDue(const CycleMotion& motion, const std::vector<PairResult>& pairs, const std::vector<DuePair>& due);
 
   /// Why a body's motion cannot be followed: a pose is not finite, not a rotation, or too far away. Empty if it can.
   const std::string& problem(int body) const { return bodies_[body].problem; }

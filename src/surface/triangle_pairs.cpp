@@ -120,10 +120,10 @@ struct Best {
     const V s[3] = {dot(n, pairs.start.p[0]), dot(n, pairs.start.p[1]), dot(n, pairs.start.p[2])};
     const V e[3] = {dot(n, pairs.end.p[0]), dot(n, pairs.end.p[1]), dot(n, pairs.end.p[2])};
     const V beyond = hn::Sub(hn::Min(least(s[0], s[1], s[2]), least(e[0], e[1], e[2])), most(a[0], a[1], a[2]));
-    take(hn::And(sound, hn::Gt(beyond, gap)), beyond, n);
+    update(hn::And(sound, hn::Gt(beyond, gap)), beyond, n);
     if (!both) return;
     const V before = hn::Sub(least(a[0], a[1], a[2]), hn::Max(most(s[0], s[1], s[2]), most(e[0], e[1], e[2])));
-    take(hn::And(sound, hn::Gt(before, gap)), before, scaled(n, real(-1.0)));
+    update(hn::And(sound, hn::Gt(before, gap)), before, scaled(n, real(-1.0)));
   }
 
   HWY_INLINE void load(int first, const TrianglePairs& pairs) {
@@ -140,7 +140,7 @@ struct Best {
   }
 
  private:
-  HWY_INLINE void take(M which, V value, const Point& n) {
+  HWY_INLINE void update(M which, V value, const Point& n) {
     gap = hn::IfThenElse(which, value, gap);
     axis = selected(which, n, axis);
   }

@@ -140,12 +140,12 @@ TEST(ClearanceTable, PairsAreDueInTheOrderOfUrgency) {
   }
   table.forget(7);
   bodies.begin(still, whole);
-  const SkippedPairs quiet = table.finish(bodies, due);
+  const SkippedPairs skipped = table.finish(bodies, due);
   ASSERT_EQ(due.size(), 6u);
   EXPECT_EQ(due[0].pair, 7);
   for (int k = 1; k < 6; ++k) EXPECT_EQ(due[std::size_t(k)].pair, k - 1);
-  EXPECT_EQ(quiet.pair, count - 1);
-  EXPECT_NEAR(quiet.error, 1e-3 * (count - 1), 1e-6);
+  EXPECT_EQ(skipped.pair, count - 1);
+  EXPECT_NEAR(skipped.error, 1e-3 * (count - 1), 1e-6);
 }
 
 TEST(ClearanceTable, ABodyThatIsNotFollowedMakesItsPairsDue) {
@@ -205,29 +205,29 @@ TEST(ClearanceTable, NamesAPairThatWillBeDueSoon) {
   scene.pairs = {{0, 1, true, true}, {0, 2, true, true}, {0, 3, true, true}, {1, 2, true, true}};
   const std::vector<char> whole(4, 1);
   const CycleMotion still = restAt(motionOf({0.0, 0.0, 1.0, 0.0, false}, 4, 1, random));
-  const auto soonWith = [&](double first, double second, double third, bool is_second_paused = false) {
+  const auto dueNextWith = [&](double first, double second, double third, bool is_second_paused = false) {
     BodyTwists bodies(scene);
     ClearanceTable table(scene, bodies);
     std::vector<DuePair> due;
     bodies.begin(still, whole);
     bodies.end(still, whole);
-    table.pauseSoon(0);
+    table.pauseDueNext(0);
     table.set(0, first);
     table.set(1, second);
-    if (is_second_paused) table.pauseSoon(1);
+    if (is_second_paused) table.pauseDueNext(1);
     table.set(2, third);
     table.set(3, 1e-6);
     CycleMotion moves = still;
     moves.X_WB[0][1].translation().x() += kStep;
     bodies.begin(moves, whole);
-    const int soon = table.finish(bodies, due).soon;
+    const int due_next = table.finish(bodies, due).due_next;
     EXPECT_TRUE(due.empty());
-    return soon;
+    return due_next;
   };
-  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep), 1);
-  EXPECT_EQ(soonWith(2.9 * kStep, 9.0 * kStep, 9.0 * kStep), 0);
-  EXPECT_EQ(soonWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, true), 0);
-  EXPECT_EQ(soonWith(3.1 * kStep, 9.0 * kStep, 9.0 * kStep), -1);
+  EXPECT_EQ(dueNextWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep), 1);
+  EXPECT_EQ(dueNextWith(2.9 * kStep, 9.0 * kStep, 9.0 * kStep), 0);
+  EXPECT_EQ(dueNextWith(2.9 * kStep, 1.9 * kStep, 9.0 * kStep, true), 0);
+  EXPECT_EQ(dueNextWith(3.1 * kStep, 9.0 * kStep, 9.0 * kStep), -1);
 }
 
 /// As after the world has lost its last body: undefined behaviour only sanitizers see.

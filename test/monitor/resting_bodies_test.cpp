@@ -29,7 +29,7 @@ Scene robotInAWorld(Random& random) {
 }
 
 /// While the world rests, only the paths of the robot's bodies are added up. In 400 cycles, in which some of the world
-/// moves now and then and pairs are set, forgotten and spent, no distance changes by more than the clearance does.
+/// moves now and then and pairs are set, forgotten and consumed, no distance changes by more than the clearance does.
 TEST(RestingBodies, ClearancesAreNoLargerThanWhatIsLeft) {
   Random random(6);
   const Scene scene = robotInAWorld(random);
@@ -39,9 +39,9 @@ TEST(RestingBodies, ClearancesAreNoLargerThanWhatIsLeft) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) X_WB.push_back(pose(random, 3.0, 2.0));
   struct Watched {
     Vector3d p_A, p_B;
-    Real distance;  // when the clearance was set
-    double spent;   // since then, by spend()
-    double bound;   // the smaller bound of the two balls, summed up
+    Real distance;    // when the clearance was set
+    double consumed;  // since then, by consume()
+    double bound;     // the smaller bound of the two balls, summed up
   };
   std::vector<Watched> watched(count);
   const auto distanceOf = [&](const PlannedPair& pair, const Watched& w) {
@@ -90,7 +90,7 @@ TEST(RestingBodies, ClearancesAreNoLargerThanWhatIsLeft) {
         continue;
       }
       Watched& w = watched[i];
-      const double used = kClearance - table.clearance(int(i)) - w.spent;
+      const double used = kClearance - table.clearance(int(i)) - w.consumed;
       const Real change = std::abs(distanceOf(scene.pairs[i], w) - w.distance);
       ASSERT_GE(used, change) << "cycle " << cycle << ", pair " << i;
       w.bound += boundOf(scene, scene.pairs[i], motion);
@@ -100,8 +100,8 @@ TEST(RestingBodies, ClearancesAreNoLargerThanWhatIsLeft) {
       if (random() % 200 == 0) set(i);
       if (random() % 500 == 0) table.forget(int(i));
       if (random() % 100 != 0 || !table.isKnown(int(i))) continue;
-      w.spent += 0.125;
-      table.spend(int(i), 0.125);
+      w.consumed += 0.125;
+      table.consume(int(i), 0.125);
     }
   }
   EXPECT_GT(looser, 1000) << "no path was added up";
@@ -204,7 +204,7 @@ TEST(RestingBodies, TheLargestErrorIsReported) {
         if (b < 6) motion.X_WB[std::size_t(b)][1] = moved(X, 1e-3, 1e-3, random);
       }
       bodies.begin(motion, whole);
-      const SkippedPairs quiet = table.finish(bodies, due);
+      const SkippedPairs skipped = table.finish(bodies, due);
       if (cycle > 0) {
         ASSERT_TRUE(due.empty());
         double largest = 0.0;
@@ -212,9 +212,9 @@ TEST(RestingBodies, TheLargestErrorIsReported) {
           const PlannedPair& pair = scene.pairs[std::size_t(i)];
           largest = std::max(largest, errors[std::size_t(i)] + bodies.poseError(pair.body_a, pair.body_b));
         }
-        ASSERT_GE(quiet.error, largest);
-        ASSERT_LE(quiet.error, largest + 1e-8);
-        ASSERT_GE(quiet.pair, 0);
+        ASSERT_GE(skipped.error, largest);
+        ASSERT_LE(skipped.error, largest + 1e-8);
+        ASSERT_GE(skipped.pair, 0);
       }
       bodies.end(motion, whole);
       for (int i = 0; i < count && cycle == 0; ++i) table.set(i, kClearance);
