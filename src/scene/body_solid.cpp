@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/infinity.h"
+
 namespace sdf_ccd {
 namespace {
 
@@ -11,21 +13,28 @@ struct Boundary {
   double deviation = 0.0;
 };
 
-/// Faces inside the solid would make depths too small.
+/// How much too small the depths in a solid may be [m], because of faces inside it; infinite if that is not known.
+double doubtOf(const Solid& solid) {
+  const bool is_solid = solid.closed() && solid.report().failure.empty();
+  return is_solid ? solid.report().doubtful_reach : kInfinity;
+}
+
+/// Slivers that may lie inside a mesh matter no more than this.
 bool isCertain(const Solid& solid) {
-  return solid.closed() && solid.report().failure.empty() && !(solid.report().doubtful_area > 0.0);
+  constexpr double kMost = 2e-5, kMostOfSize = 5e-5;  // [m]
+  return doubtOf(solid) <= std::max(kMost, kMostOfSize * boundingBox(solid.boundary()).sizes().maxCoeff());
 }
 
 Boundary boundaryOf(PooledMesh& pooled) {
   if (pooled.quality.doubtful) return {};
   const SolidSource source(pooled.mesh, pooled.made);
-  if (isCertain(source.solid())) return {pooled.made.solid, 0.0};
+  if (isCertain(source.solid())) return {pooled.made.solid, doubtOf(source.solid())};
   if (isClosed(pooled.mesh)) return {};
   const ClosedSolid& closed = source.closed();
   if (!closed.hasCracksAlone() || !isCertain(closed.solid())) return {};
   const std::vector<double>& reach = closed.openings().reach;
   const double widest = reach.empty() ? 0.0 : *std::max_element(reach.begin(), reach.end());
-  return {{pooled.made.closed, &closed.solid()}, closed.moved() + widest};
+  return {{pooled.made.closed, &closed.solid()}, closed.moved() + widest + doubtOf(closed.solid())};
 }
 
 /// Fine enough for depths to a tenth of the default error.
@@ -67,6 +76,7 @@ std::shared_ptr<const DepthSolid> ownSolidOf(const BodyDescription& description,
   }
   auto solid = std::make_shared<const Solid>(all);
   if (!isCertain(*solid)) return nullptr;
+  deviation += doubtOf(*solid);
   return std::make_shared<const DepthSolid>(std::move(solid), Isometry3d::Identity(), deviation);
 }
 

@@ -5,11 +5,16 @@
 #include <fmt/format.h>
 
 #include "common/counted.h"
+#include "common/infinity.h"
 #include "common/parallel_for.h"
+#include "doubtful_reach.h"
 #include "triangle_cutter.h"
 
 namespace sdf_ccd {
 namespace {
+
+constexpr double kDoubtToSpeakOf = 1e-4;  // of the area
+constexpr double kReachOfSize = 2e-6;     // to which SolidReport::doubtful_reach is measured
 
 bool isKept(Sides sides) {
   return sides != Sides::kInterior && sides != Sides::kDuplicate;
@@ -29,7 +34,7 @@ class BoundaryWriter {
       return;
     }
     add(mesh_.triangles[triangle], sides, tells_sides);
-    if (sides == Sides::kUnknown) noteDoubtful(0.5 * areaNormal(mesh_, triangle).norm());
+    if (sides == Sides::kUnknown) noteDoubtful({cornersOf(mesh_, triangle)});
     report_.reversed += sides == Sides::kInward;
   }
 
@@ -42,41 +47,65 @@ class BoundaryWriter {
     if (one || (!clipped && !(has(Sides::kOutward) && has(Sides::kInward)))) {
       if (one) return addWhole(triangle, parts.front().sides, parts.front().tells_sides);
       add(mesh_.triangles[triangle], Sides::kUnknown, false);
-      noteDoubtful(areaOf(parts, Sides::kUnknown));
+      noteDoubtful(trianglesOf(parts, Sides::kUnknown));
+      for (const Sides certain : {Sides::kOutward, Sides::kInward})
+        for (const Corners& t : trianglesOf(parts, certain)) addTriangle(t, certain_);
       return;
     }
     report_.clipped += clipped;
-    noteDoubtful(areaOf(parts, Sides::kUnknown));
+    noteDoubtful(trianglesOf(parts, Sides::kUnknown));
     for (const SurfacePart& part : parts) {
       if (isKept(part.sides)) addPiece(part);
     }
+  }
+
+  /// Sets SolidReport::doubtful_reach, unless so much is doubtful that users are warned.
+  void measureDoubt() {
+    report_.doubtful_area /= surfaceArea(mesh_);
+    if (doubtful_.empty()) return;
+    report_.doubtful_reach = kInfinity;
+    const double tolerance = kReachOfSize * boundingBox(mesh_).sizes().maxCoeff();
+    if (report_.doubtful_area > kDoubtToSpeakOf) return;
+    for (std::size_t i = 0; i < boundary_.triangles.size(); ++i)
+      if (is_certain_[i]) addTriangle(cornersOf(boundary_, static_cast<int>(i)), certain_);
+    if (!certain_.triangles.empty()) report_.doubtful_reach = reachFrom(TriangleTree(certain_), doubtful_, tolerance);
   }
 
   TriangleMesh takeMesh() { return std::move(boundary_); }
   std::vector<std::uint8_t> takeSeparates() { return std::move(separates_); }
 
  private:
-  static double areaOf(const std::vector<SurfacePart>& parts, Sides sides) {
-    double area = 0.0;
+  static std::vector<Corners> trianglesOf(const std::vector<SurfacePart>& parts, Sides sides) {
+    std::vector<Corners> all;
     for (const SurfacePart& part : parts) {
       if (part.sides != sides) continue;
-      for (const auto& t : part.piece.triangles()) {
-        const auto place = [&](int k) -> const Vector3d& { return part.piece.corners()[t[k]].point; };
-        area += 0.5 * (place(1) - place(0)).cross(place(2) - place(0)).norm();
-      }
+      const auto& corners = part.piece.corners();
+      for (const auto& t : part.piece.triangles())
+        all.push_back({corners[t[0]].point, corners[t[1]].point, corners[t[2]].point});
     }
-    return area;
+    return all;
   }
 
-  void noteDoubtful(double area) {
+  static void addTriangle(const Corners& corners, TriangleMesh& mesh) {
+    const int first = static_cast<int>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+
+  /// Of one triangle of the mesh.
+  void noteDoubtful(const std::vector<Corners>& parts) {
+    double area = 0.0;
+    for (const Corners& part : parts) area += 0.5 * areaNormal(part).norm();
     report_.doubtful += area > 0.0;
     report_.doubtful_area += area;
+    doubtful_.insert(doubtful_.end(), parts.begin(), parts.end());
   }
 
   void add(Vector3i corners, Sides sides, bool tells_sides) {
     if (sides == Sides::kInward) std::swap(corners[1], corners[2]);
     boundary_.triangles.push_back(corners);
     const bool has_sides = sides == Sides::kOutward || sides == Sides::kInward;
+    is_certain_.push_back(has_sides);
     const int last = static_cast<int>(boundary_.triangles.size()) - 1;
     separates_.push_back(tells_sides && has_sides && hasCertainPlane(boundary_, last, tolerance_));
   }
@@ -98,7 +127,9 @@ class BoundaryWriter {
   SurfaceTolerance tolerance_;
   SolidReport& report_;
   TriangleMesh boundary_;
-  std::vector<std::uint8_t> separates_;
+  std::vector<std::uint8_t> separates_, is_certain_;  // per triangle of the boundary
+  TriangleMesh certain_;  // what certainly bounds the solid of triangles that are kept whole though in part doubtful
+  std::vector<Corners> doubtful_;
 };
 
 /// Parts of triangles that others cut; none for triangles that cost too much.
@@ -170,7 +201,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
     const int triangle = static_cast<int>(i);
     parts[i].empty() ? writer.addWhole(triangle, sides[i]) : writer.addParts(triangle, parts[i]);
   }
-  report_.doubtful_area /= surfaceArea(mesh);
+  writer.measureDoubt();
   if (report_.dropped == static_cast<int>(sides.size())) {
     report_.failure = "no triangle has the outside in front of it";
     return;
@@ -197,11 +228,10 @@ std::string summary(const SolidReport& report) {
 }
 
 std::string warning(const SolidReport& report) {
-  constexpr double kToSpeakOf = 1e-4;
   if (!report.failure.empty()) {
     return "depths may be those of faces inside the solid, because " + report.failure;
   }
-  if (report.doubtful_area <= kToSpeakOf) return {};
+  if (report.doubtful_area <= kDoubtToSpeakOf) return {};
   return fmt::format(
       "depths may be those of faces inside the solid: {} triangles ({:.2g} % of the area) cannot be classified as "
       "outside or inside",

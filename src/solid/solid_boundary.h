@@ -18,7 +18,10 @@ struct SolidReport {
   int reversed = 0;          ///< triangles, or pieces, that were inside out
   int doubtful = 0;          ///< triangles that may lie inside in part: their sides are not certain everywhere
   double doubtful_area = 0;  ///< where the sides are not certain, relative to the mesh's area
-  std::string failure;       ///< why all triangles were taken as they are; empty if that was not necessary
+  /// Upper bound of the distance from there to the triangles that certainly bound the solid [m]: so depths are too
+  /// small by no more, even if all of it lies inside. Infinite if that is not small.
+  double doubtful_reach = 0;
+  std::string failure;  ///< why all triangles were taken as they are; empty if that was not necessary
 };
 
 /// One line of text: "12 triangles inside the solid removed, 4 triangles clipped into 9"; empty if there is nothing to
