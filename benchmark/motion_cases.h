@@ -78,14 +78,10 @@ class MotionCases {
   /// Distance of the centres along u at which a shell that approaches from far away first touches the field's surface.
   double touching(const Matrix3d& R, const Vector3d& u) const {
     const double step = 0.05 * side_;
-    double distance = 1.5 * (side_ + shell_side_);
-    for (double free = step; free >= 0.1 * step; distance -= free) {
-      free = std::max(0.0, clearance(subject_.field, subject_.tree, subject_.shell, pose(R, distance * u), 0.1 * step));
-    }
-    for (; distance > 0.0; distance -= step) {
+    for (double distance = 1.5 * (side_ + shell_side_); distance > 0.0; distance -= step) {
       const ChordPath path{{{0.0, 1.0, pose(R, distance * u), pose(R, (distance - step) * u), 0}}, 0.0};
       ShellQueryResult result;
-      shellIntervals(subject_.field, subject_.shell, subject_.tree, path, {}, result);
+      shellIntervals(subject_.field, subject_.shell, subject_.tree, path, result);
       double first = result.inside.empty() ? 2.0 : 0.0;
       for (const ShellHit& hit : result.hits) first = std::min(first, hit.interval.enter);
       if (first <= 1.0) return distance - first * step;

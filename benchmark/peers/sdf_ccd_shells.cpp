@@ -46,7 +46,7 @@ class Tree : public ShellSystem {
   ShellAnswer run(const PosePair* pairs, std::size_t count) override {
     ShellAnswer answer;
     for (std::size_t i = 0; i < count; ++i) {
-      shellIntervals(subject_.field, subject_.shell, subject_.tree, straight(pairs[i]), {}, result_);
+      shellIntervals(subject_.field, subject_.shell, subject_.tree, straight(pairs[i]), result_);
       answer.contacts += result_.count();
       answer.pairs_in_contact += result_.touches();
     }

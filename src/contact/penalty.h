@@ -18,7 +18,7 @@ struct SiblingField {
   bool wins_tie;    ///< takes the contact if both are equally deep
 };
 
-/// One shell against one field, after shellIntervals() with σ = 0.
+/// One shell against one field, after shellIntervals().
 struct ContactInput {
   const DistanceField& field;
   const PointShell& shell;

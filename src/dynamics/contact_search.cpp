@@ -67,7 +67,7 @@ void ContactSearch::run(const StepMotion& motion, const std::function<void(const
       addChords({motion.times[k], motion.times[k + 1], X_OF[k], X_OF[k + 1], X_OP[k], X_OP[k + 1]}, shell.ball, chords,
                 static_cast<int>(k), path_);
     }
-    shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, {}, query_);
+    shellIntervals(*world_.bodies[role.field_body].shape->field, shell.shell, shell.tree, path_, query_);
     if (!query_.touches()) continue;
     listHits(query_, hits_);
     visit({role.shell_body, role.field_body, role.weight, chords.tolerance, path_, hits_});

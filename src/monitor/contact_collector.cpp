@@ -78,7 +78,7 @@ void ContactCollector::add(PairRole& role, double weight, const ContactOptions& 
     if (chords > 1 || p > 0) is_divided_ = true;
     for (std::size_t first = 0; first < chords; first += size) {
       const ChordPath& block = blockOf(path, first, size);
-      shellIntervals(part.field, role.shell(), shell.tree, block, {}, query_);
+      shellIntervals(part.field, role.shell(), shell.tree, block, query_);
       if (!query_.touches()) continue;
       if (!have_poses) setFieldPoses(role);
       have_poses = true;

@@ -2,19 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
-
-#include "common/number_text.h"
 
 namespace sdf_ccd {
 namespace {
-
-void validate(const ChordOptions& options) {
-  if (options.tolerance > 0.0 && options.max_chords >= 1) return;
-  throw std::invalid_argument("chord options: tolerance must be positive and max_chords at least 1, got " +
-                              numberText(options.tolerance) + " m and " + std::to_string(options.max_chords));
-}
 
 /// Times of an interval between two recorded poses.
 struct Span {
@@ -78,26 +68,6 @@ double accelerationBound(const Drift& F, const Drift& P, const BoundingBall& bal
 }
 
 }  // namespace
-
-void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path) {
-  if (motion.times.size() < 2 || motion.times.size() != motion.X_FP.size()) {
-    throw std::invalid_argument("relative path: " + std::to_string(motion.times.size()) + " times and " +
-                                std::to_string(motion.X_FP.size()) + " poses");
-  }
-  validate(options);
-  path.chords.clear();
-  path.error = 0.0;
-  for (std::size_t k = 0; k + 1 < motion.times.size(); ++k) {
-    const double t0 = motion.times[k], t1 = motion.times[k + 1];
-    if (!std::isfinite(t0) || !std::isfinite(t1) || t1 <= t0) {
-      throw std::invalid_argument("relative path: times " + numberText(t0) + " and " + numberText(t1) +
-                                  " do not increase");
-    }
-    const ScrewMotion screw(motion.X_FP[k], motion.X_FP[k + 1]);
-    const auto poseAt = [&](double s) { return screw.pose(s); };
-    addChords(Span{t0, t1, static_cast<int>(k)}, screw.maxAcceleration(ball), poseAt, options, path);
-  }
-}
 
 void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path) {
   const auto poseAt = [&](double s) { return motion.X_FP(s); };

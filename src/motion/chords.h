@@ -22,18 +22,6 @@ struct ChordPath {
   double error = 0.0;         ///< upper bound of the ball's points' deviation from their true positions [m]
 };
 
-/// Recorded poses of P in F at increasing times.
-struct RelativePath {
-  std::vector<double> times;  ///< [s]
-  std::vector<Isometry3d> X_FP;
-};
-
-/// Cuts a relative motion with a constant twist between recorded poses (one of the bodies rests, or one joint lies
-/// between them) into chords: n = ⌈√(a / 8 tol)⌉ per interval, where a bounds the points' acceleration (an arc of
-/// radius r through θ deviates by rθ²/8 from its chord). Reuses the memory of `path`.
-/// @throws std::invalid_argument unless there are two poses or more, at increasing finite times.
-void cutIntoChords(const RelativePath& motion, const BoundingBall& ball, const ChordOptions& options, ChordPath& path);
-
 /// Two bodies between two recorded times. Each moves with a constant twist in the world.
 struct TwoBodyMotion {
   double t_start;  ///< [s]
@@ -57,7 +45,8 @@ auto withPart(const TwoBodyMotion& whole, double start, double end, const Query&
 }
 
 /// Appends the chords of one interval to the path, whose last chord must end where the interval begins, and updates its
-/// error. Chords end at the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
+/// error: n = ⌈√(a / 8 tol)⌉ where a bounds the points' acceleration (an arc of radius r through θ deviates by rθ²/8
+/// from its chord). Chords end at the true relative poses X_WF(s)⁻¹ X_WP(s): design §3.12.
 /// @param interval  Chord::interval of the chords added.
 void addChords(const TwoBodyMotion& motion, const ChordOptions& options, int interval, ChordPath& path);
 

@@ -23,21 +23,17 @@ Isometry3d posed(const Matrix3d& R, const Vector3d& middle_F, const Vector3d& mi
   return X;
 }
 
-/// Distance [m] along u between the centres of field and shell at which the shell almost touches the field's surface:
-/// the clearance is at most 1.2 times the field's error bound plus a thousandth of `side`. Found by conservative
-/// advancement from a distance of 3 `side`.
+/// Distance [m] along u between the centres of field and shell at which the shell, which comes from 3 `side` away,
+/// touches the field's surface first; 0 if it never does.
 double touchingDistance(const DistanceField& field, const TreeShell& shell, const Matrix3d& R_FP, const Vector3d& u,
                         double side) {
   const Vector3d middle = field.surfaceBox().center();
-  const double near = 1.2 * field.errorBound() + 1e-3 * side;
-  double distance = 3.0 * side;
-  while (distance > 0.0) {
-    const Isometry3d X_FP = posed(R_FP, middle + distance * u, middle);
-    const double free = clearance(field, shell.tree, shell.shell, X_FP, 0.25 * near);
-    if (free <= near) break;
-    distance -= free;
-  }
-  return std::max(distance, 0.0);
+  const double from = 3.0 * side;
+  ContactQuery approach(field, shell, {posed(R_FP, middle + from * u, middle), posed(R_FP, middle, middle)});
+  approach.find();
+  double first = 1.0;
+  for (const ShellHit& hit : approach.hits) first = std::min(first, hit.interval.enter);
+  return (1.0 - first) * from;
 }
 
 }  // namespace
@@ -56,7 +52,7 @@ std::vector<Motion> presses(const DistanceField& field, const TreeShell& shell, 
     const Matrix3d R = rotation(random);
     const Vector3d u = direction(random);
     const double touching = touchingDistance(field, shell, R, u, side);
-    const double pressed = touching - 1e-3 * side - uniform(random, shallow, deep);
+    const double pressed = touching - uniform(random, shallow, deep);
     const Isometry3d start = posed(R, middle + pressed * u, middle);
     const Matrix3d R_step = Eigen::AngleAxisd(0.02, direction(random)).toRotationMatrix();
     const Motion motion{start, posed(R_step * R, middle + (pressed - travel) * u, middle)};
@@ -74,7 +70,7 @@ ContactQuery::ContactQuery(const DistanceField& field, const TreeShell& shell, c
       X_CF(2, Isometry3d::Identity()) {}
 
 void ContactQuery::find() {
-  shellIntervals(field, shell.shell, shell.tree, path, {}, found);
+  shellIntervals(field, shell.shell, shell.tree, path, found);
   listHits(found, hits);
 }
 

@@ -62,8 +62,8 @@ SDF_CCD_INLINE void testSpheresOf(const Shape& shape, const Sweep& sweep, Sphere
                   at_end = distance(shape, end), half = 0.5 * squareRoot(d.dot(d));
     // The solid is convex, so the distance is greatest at an end. It is 1-Lipschitz, so on each half of the path it is
     // nowhere less than half of what is left of both ends' distances when the half has been gone.
-    const auto inside = larger(at_start, at_end) + radius + sweep.inside < Doubles{};
-    const auto outside = 0.5 * (at_middle + smaller(at_start, at_end) - half) - radius - sweep.outside > Doubles{};
+    const auto inside = larger(at_start, at_end) + radius + sweep.margin < Doubles{};
+    const auto outside = 0.5 * (at_middle + smaller(at_start, at_end) - half) - radius - sweep.margin > Doubles{};
     for (int k = 0; k < kWidth; ++k) {
       group.side[i + k] = static_cast<std::int32_t>(inside[k]    ? SweptSide::kInside
                                                     : outside[k] ? SweptSide::kOutside
@@ -99,12 +99,9 @@ double roundingOf(const Primitive& primitive, const Chord& chord, const Bounding
 
 }  // namespace
 
-PrimitiveSpheres::PrimitiveSpheres(const Primitive& primitive, const Chord& chord, const SweptMargins& margins,
+PrimitiveSpheres::PrimitiveSpheres(const Primitive& primitive, const Chord& chord, double margin,
                                    const BoundingBall& shell)
-    : primitive_(primitive) {
-  const double rounding = roundingOf(primitive, chord, shell);
-  sweep_ = {chord.X_FP_start, chord.X_FP_end, margins.outside + rounding, margins.inside + rounding};
-}
+    : primitive_(primitive), sweep_{chord.X_FP_start, chord.X_FP_end, margin + roundingOf(primitive, chord, shell)} {}
 
 void PrimitiveSpheres::test(SphereGroup& group) const {
   std::visit([&](const auto& shape) { testSpheres(shape, sweep_, group); }, primitive_);

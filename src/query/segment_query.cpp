@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/infinity.h"
 #include "common/number_text.h"
 #include "field/field_access.h"
 #include "query/smooth_pieces.h"
@@ -42,20 +41,20 @@ Intervals segmentIntervals(const DistanceField& field, const Segment& segment, c
   return intervals;
 }
 
-SweptSide sweptSide(const DistanceField& field, const Segment& segment, const SweptMargins& margins) {
+SweptSide sweptSide(const DistanceField& field, const Segment& segment, double margin) {
   const Vector3d d = segment.end - segment.start;
   const double length = d.norm();
   // Most segments are short: one sphere around the middle contains all of it.
   const DistanceBounds at_middle = field.bounds(segment.start + 0.5 * d);
-  const double middle = at_middle.low - margins.outside;
+  const double middle = at_middle.low - margin;
   if (middle > 0.5 * length) return SweptSide::kOutside;
-  if (at_middle.high < -(margins.inside + 0.5 * length)) return SweptSide::kInside;
+  if (at_middle.high < -(margin + 0.5 * length)) return SweptSide::kInside;
   if (middle <= 0.0) return SweptSide::kUnknown;
   // From one empty sphere to the next. After too many steps, the answer is the conservative one.
   constexpr int kMaxBalls = 64;
   double at = 0.0;
   for (int i = 0; i < kMaxBalls; ++i) {
-    const double free = field.lowerBound(segment.start + (at / length) * d) - margins.outside;
+    const double free = field.lowerBound(segment.start + (at / length) * d) - margin;
     if (free <= 0.0) return SweptSide::kUnknown;
     at += free;
     if (at > length) return SweptSide::kOutside;
@@ -64,7 +63,7 @@ SweptSide sweptSide(const DistanceField& field, const Segment& segment, const Sw
 }
 
 bool mayTouch(const DistanceField& field, const Segment& segment, double radius) {
-  return sweptSide(field, segment, {radius, kInfinity}) != SweptSide::kOutside;
+  return sweptSide(field, segment, radius) != SweptSide::kOutside;
 }
 
 void smoothPieces(const DistanceField& field, const Segment& segment, const Interval& interval,

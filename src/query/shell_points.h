@@ -17,14 +17,8 @@ inline Segment along(const Chord& chord, const Vector3d& p_P) {
 /// Queries points for their intervals; on grids in batches, which are faster.
 class ShellPoints {
  public:
-  ShellPoints(const DistanceField& field, const PointShell& shell, const ShellQueryOptions& options,
-              ShellQueryResult& result)
-      : field_(field),
-        shell_(shell),
-        options_(options),
-        result_(result),
-        work_(threadWork()),
-        batched_(!field.primitive()) {}
+  ShellPoints(const DistanceField& field, const PointShell& shell, ShellQueryResult& result)
+      : field_(field), shell_(shell), result_(result), work_(threadWork()), batched_(!field.primitive()) {}
 
   /// Sets the chord of the points that follow.
   void begin(const Chord& chord, int index) {
@@ -46,7 +40,7 @@ class ShellPoints {
   /// Queries the points collected so far.
   void finish() {
     if (work_.points.empty()) return;
-    segmentIntervals(field_, work_.segments.data(), work_.segments.size(), {options_.sigma}, work_.found);
+    segmentIntervals(field_, work_.segments.data(), work_.segments.size(), {}, work_.found);
     for (const SegmentHit& hit : work_.found.hits) {
       result_.hits.push_back({work_.points[hit.segment], index_, {double(hit.enter), double(hit.exit)}});
     }
@@ -71,13 +65,12 @@ class ShellPoints {
   }
 
   void querySingly(std::int32_t point, const Segment& segment) {
-    segmentIntervals(field_, segment, {options_.sigma}, work_.intervals);
+    segmentIntervals(field_, segment, {}, work_.intervals);
     for (const Interval& interval : work_.intervals) result_.hits.push_back({point, index_, interval});
   }
 
   const DistanceField& field_;
   const PointShell& shell_;
-  const ShellQueryOptions& options_;
   ShellQueryResult& result_;
   Work& work_;
   const bool batched_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "common/cancel_point.h"
-#include "common/infinity.h"
 #include "prefetch.h"
 #include "query/swept_side.h"
 #include "representation_queries.h"
@@ -36,15 +35,14 @@ SearchWork& searchWork() {
 /// Tests a shell against a field, chord by chord.
 class ShellSearch {
  public:
-  ShellSearch(const DistanceField& field, const PointShell& shell, const SphereTree& tree,
-              const ShellQueryOptions& options, ShellQueryResult& result)
+  ShellSearch(const DistanceField& field, const PointShell& shell, const SphereTree& tree, ShellQueryResult& result)
       : shell_(shell),
         nodes_(tree.nodes.data()),
         result_(result),
         work_(searchWork()),
         // A point's roots are those of the interpolated field; the spheres' test is about the true distance.
-        sides_(field, {field.errorBound() + options.sigma, field.errorBound() - options.sigma}, tree.nodes[0].ball()),
-        points_(field, shell, options, result) {}
+        sides_(field, field.errorBound(), tree.nodes[0].ball()),
+        points_(field, shell, result) {}
 
   void follow(const Chord& chord, int index) {
     cancel_.check();
@@ -69,7 +67,6 @@ class ShellSearch {
   void testNode() {
     const std::int32_t i = work_.stack.back();
     work_.stack.pop_back();
-    ++result_.nodes_visited;
     const BoundingBall ball = nodes_[i].ball();
     visit(i, sides_.of(ball.center, ball.radius));
   }
@@ -80,7 +77,6 @@ class ShellSearch {
     const std::size_t count = std::min<std::size_t>(stack.size(), SphereGroup::kCapacity);
     tested.assign(stack.end() - count, stack.end());
     stack.resize(stack.size() - count);
-    result_.nodes_visited += static_cast<long>(count);
     SphereGroup& group = sides_.group();
     group.size = 0;
     for (const std::int32_t i : tested) group.add(nodes_[i].center, nodes_[i].radius);
@@ -179,44 +175,13 @@ void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits) {
 }
 
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
-                    const ShellQueryOptions& options, ShellQueryResult& result) {
+                    ShellQueryResult& result) {
   result.hits.clear();
   result.inside.clear();
-  result.nodes_visited = 0;
   result.points_tested = 0;
-  checkIsovalue(field, options.sigma);
   if (tree.nodes.empty()) return;
-  ShellSearch search(field, shell, tree, options, result);
+  ShellSearch search(field, shell, tree, result);
   for (std::size_t c = 0; c < path.chords.size(); ++c) search.follow(path.chords[c], static_cast<int>(c));
-}
-
-double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
-                 double slack) {
-  double nearest = kInfinity;  // smallest lower bound of the points visited
-  double bound = nearest;      // of the points in nodes that were skipped
-  if (tree.nodes.empty()) return bound;
-  std::vector<std::int32_t>& stack = searchWork().stack;
-  stack.push_back(0);
-  CancelTicks<> cancel;
-  while (!stack.empty()) {
-    cancel.check();
-    const SphereTree::Node& node = tree.nodes[stack.back()];
-    stack.pop_back();
-    const double low = field.lowerBound(X_FP * node.ball().center) - node.radius;
-    if (low >= nearest - slack) {
-      bound = std::min(bound, low);
-      continue;
-    }
-    if (!node.isLeaf()) {
-      stack.push_back(node.first_child + 1);
-      stack.push_back(node.first_child);
-      continue;
-    }
-    for (std::int32_t i = node.begin; i < node.end; ++i) {
-      nearest = std::min(nearest, field.lowerBound(X_FP * shell.point(static_cast<std::size_t>(i))));
-    }
-  }
-  return std::min(bound, nearest);
 }
 
 }  // namespace sdf_ccd

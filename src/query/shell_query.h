@@ -16,10 +16,6 @@ struct ShellHit {
   Interval interval;  ///< within the chord, [0, 1]
 };
 
-struct ShellQueryOptions {
-  double sigma = 0.0;  ///< isovalue [m]; std::invalid_argument unless within the field's band
-};
-
 /// Points [begin, end) of a shell that are inside along the whole chord.
 struct InsidePoints {
   int begin;
@@ -31,7 +27,6 @@ struct InsidePoints {
 struct ShellQueryResult {
   std::vector<ShellHit> hits;        ///< by chord, then in the tree's order of points; those of one point by time
   std::vector<InsidePoints> inside;  ///< by chord; of other points than the chord's hits
-  long nodes_visited = 0;            ///< spheres of the tree that were tested
   long points_tested = 0;            ///< points whose segments were queried
 
   /// Whether a point is inside at any time.
@@ -45,19 +40,14 @@ struct ShellQueryResult {
 /// @param hits  replaced; its memory is reused.
 void listHits(const ShellQueryResult& result, std::vector<ShellHit>& hits);
 
-/// All intervals in which points of a shell are on or inside the isosurface φ = σ while they run along a path.
+/// All intervals in which points of a shell are on or inside the surface φ = 0 while they run along a path.
 ///
 /// Source: Xu & Barbič 2014, §3.3. A node of the sphere tree is skipped if its centre's segment stays farther than
-/// radius + σ + the field's error from the surface; all points below a node that stays deeper than that are inside for
-/// the whole chord. The result equals that of testing every point. Grids are queried for spheres and points in batches
+/// radius + the field's error from the surface; all points below a node that stays deeper than that are inside for the
+/// whole chord. The result equals that of testing every point. Grids are queried for spheres and points in batches
 /// (see segment_query.h for the tolerance, and for the threads of large shells). Reuses the memory of `result`.
 /// @param path         X_FP, as chords.
 void shellIntervals(const DistanceField& field, const PointShell& shell, const SphereTree& tree, const ChordPath& path,
-                    const ShellQueryOptions& options, ShellQueryResult& result);
-
-/// A lower bound of the distances of all shell points from the field's surface [m], at one pose; within
-/// `slack` [m] of the best that the field's bounds allow.
-double clearance(const DistanceField& field, const SphereTree& tree, const PointShell& shell, const Isometry3d& X_FP,
-                 double slack);
+                    ShellQueryResult& result);
 
 }  // namespace sdf_ccd

@@ -43,8 +43,8 @@ struct SphereSides::Vectors {
     return *uniform;
   }
 
-  void begin(const DistanceField& field, const Chord& chord, const SweptMargins& margins, const BoundingBall& shell) {
-    sweep.emplace(field, box(), chord, margins, shell);
+  void begin(const DistanceField& field, const Chord& chord, double margin, const BoundingBall& shell) {
+    sweep.emplace(field, box(), chord, margin, shell);
   }
 
   bool sortsPoints() const { return !sweep->isLong(); }
@@ -62,25 +62,25 @@ struct SphereSides::Vectors {
 
 struct SphereSides::Vectors {
   static Vectors* of(const DistanceField& /*field*/) { return nullptr; }
-  void begin(const DistanceField& /*field*/, const Chord& /*chord*/, const SweptMargins& /*margins*/,
-             const BoundingBall& /*shell*/) {}
+  void begin(const DistanceField& /*field*/, const Chord& /*chord*/, double /*margin*/, const BoundingBall& /*shell*/) {
+  }
   bool sortsPoints() const { return false; }
   void test(SphereGroup& /*group*/) {}
 };
 
 #endif
 
-SphereSides::SphereSides(const DistanceField& field, const SweptMargins& margins, const BoundingBall& shell)
-    : field_(field), margins_(margins), shell_(shell), group_(threadGroup()), vectors_(Vectors::of(field)) {}
+SphereSides::SphereSides(const DistanceField& field, double margin, const BoundingBall& shell)
+    : field_(field), margin_(margin), shell_(shell), group_(threadGroup()), vectors_(Vectors::of(field)) {}
 
 void SphereSides::begin(const Chord& chord) {
   chord_ = &chord;
-  if (const Primitive* primitive = field_.primitive()) primitive_.emplace(*primitive, chord, margins_, shell_);
-  if (vectors_) vectors_->begin(field_, chord, margins_, shell_);
+  if (const Primitive* primitive = field_.primitive()) primitive_.emplace(*primitive, chord, margin_, shell_);
+  if (vectors_) vectors_->begin(field_, chord, margin_, shell_);
 }
 
 SweptSide SphereSides::of(const Vector3d& center_P, double radius) const {
-  return sweptSide(field_, along(*chord_, center_P), {radius + margins_.outside, radius + margins_.inside});
+  return sweptSide(field_, along(*chord_, center_P), radius + margin_);
 }
 
 bool SphereSides::sortsPoints() const {

@@ -9,12 +9,12 @@
 namespace sdf_ccd {
 
 /// Finds the side of a field's surface on which a shell's spheres surely stay along a whole chord: sweptSide() with the
-/// spheres' radii added to the margins.
+/// spheres' radii added to the margin.
 class SphereSides {
  public:
-  /// @param margins  added to the spheres' radii.
-  /// @param shell    contains the spheres' centres, frame P.
-  SphereSides(const DistanceField& field, const SweptMargins& margins, const BoundingBall& shell);
+  /// @param margin  added to the spheres' radii [m].
+  /// @param shell   contains the spheres' centres, frame P.
+  SphereSides(const DistanceField& field, double margin, const BoundingBall& shell);
 
   /// Sets the chord of the spheres that follow.
   void begin(const Chord& chord);
@@ -36,7 +36,7 @@ class SphereSides {
   struct Vectors;
 
   const DistanceField& field_;
-  SweptMargins margins_;
+  double margin_;
   BoundingBall shell_;
   const Chord* chord_ = nullptr;
   SphereGroup& group_;

@@ -47,7 +47,7 @@ struct DeepCase {
     shell = sampleSurface(of, options);
     tree = buildSphereTree(shell);
     sums = nodeSums(shell, tree);
-    shellIntervals(field, shell, tree, path, {}, query);
+    shellIntervals(field, shell, tree, path, query);
     groups.divide(field, {shell, tree, sums}, path, query, points);
   }
 

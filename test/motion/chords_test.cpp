@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/random.h"
+#include "oracle/screw_chords.h"
 
 namespace sdf_ccd::chords_test {
 
@@ -93,11 +94,10 @@ TEST(Chords, ErrorIsABoundAndNotALooseOne) {
   double worst_share = 0.0;
   for (int i = 0; i < 300; ++i) {
     const Isometry3d a = test::pose(random, 3.0, 1.0);
-    const RelativePath motion{{0.0, 1.0}, {a, a * test::pose(random, 3.0, i % 2 ? 1.0 : 0.0)}};
+    const Isometry3d b = a * test::pose(random, 3.0, i % 2 ? 1.0 : 0.0);
     const BoundingBall ball{test::direction(random) * test::uniform(random, 0, 1), test::uniform(random, 0, 0.5)};
-    ChordPath path;
-    cutIntoChords(motion, ball, {test::uniform(random, 1e-4, 1e-1), 1000}, path);
-    const ScrewMotion screw(motion.X_FP[0], motion.X_FP[1]);
+    const ChordPath path = test::screwChords({a, b}, ball, {test::uniform(random, 1e-4, 1e-1), 1000});
+    const ScrewMotion screw(a, b);
     for (int k = 0; k < 100; ++k) {
       const Vector3d p = ball.center + ball.radius * test::direction(random);
       const Chord& chord = path.chords[random() % path.chords.size()];
@@ -144,9 +144,8 @@ TEST(Chords, ErrorIsABoundForDriftingBodies) {
 }
 
 TEST(Chords, RightAngleWithinOneCycleKeepsTheTolerance) {
-  const RelativePath motion{{0.0, 0.1}, {Isometry3d::Identity(), turned({0, 0, 1}, 1.5707963267948966)}};
-  ChordPath path;
-  cutIntoChords(motion, {Vector3d::Zero(), 0.5}, {1e-4, 1000}, path);
+  const ChordPath path = test::screwChords({Isometry3d::Identity(), turned({0, 0, 1}, 1.5707963267948966)},
+                                           {Vector3d::Zero(), 0.5}, {1e-4, 1000}, 0.1);
   EXPECT_LE(path.error, 1e-4);
   EXPECT_GT(path.error, 0.5e-4);
   EXPECT_EQ(path.chords.size(), 40U);  // √(0.5 (π/2)² / 8e-4) = 39.3
@@ -159,28 +158,17 @@ TEST(Chords, RightAngleWithinOneCycleKeepsTheTolerance) {
 }
 
 TEST(Chords, TranslationNeedsOneChordAndHasNoError) {
-  ChordPath path;
-  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), turned({1, 0, 0}, 0.0, {5, 1, 2})}}, {Vector3d::Zero(), 1.0},
-                {1e-6, 1000}, path);
+  const ChordPath path = test::screwChords({Isometry3d::Identity(), turned({1, 0, 0}, 0.0, {5, 1, 2})},
+                                           {Vector3d::Zero(), 1.0}, {1e-6, 1000});
   EXPECT_EQ(path.chords.size(), 1U);
   EXPECT_LT(path.error, 1e-15);
 }
 
 TEST(Chords, CapLeavesItsErrorInTheBound) {
-  ChordPath path;
-  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), turned({0, 0, 1}, 3.0)}}, {Vector3d::Zero(), 1.0}, {1e-9, 10},
-                path);
+  const ChordPath path =
+      test::screwChords({Isometry3d::Identity(), turned({0, 0, 1}, 3.0)}, {Vector3d::Zero(), 1.0}, {1e-9, 10});
   EXPECT_EQ(path.chords.size(), 10U);
   EXPECT_NEAR(path.error, 9.0 / 800.0, 1e-12);
-}
-
-TEST(Chords, RefusesBadTimes) {
-  ChordPath path;
-  const Isometry3d X = Isometry3d::Identity();
-  EXPECT_THROW(cutIntoChords({{0.0}, {X}}, {}, {}, path), std::invalid_argument);
-  EXPECT_THROW(cutIntoChords({{0.0, 0.0}, {X, X}}, {}, {}, path), std::invalid_argument);
-  EXPECT_THROW(cutIntoChords({{0.0, NAN}, {X, X}}, {}, {}, path), std::invalid_argument);
-  EXPECT_THROW(cutIntoChords({{0.0, 1.0}, {X, X}}, {}, {0.0, 10}, path), std::invalid_argument);
 }
 
 }  // namespace sdf_ccd::chords_test

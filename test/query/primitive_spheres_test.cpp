@@ -61,7 +61,7 @@ TEST(PrimitiveSpheres, SidesHoldWithinRounding) {
     if (trial % 5) chord.X_FP_end.translation() += 0.5 * off * test::direction(random);
     SphereGroup group;
     for (int i = 0; i < 7; ++i) group.add(p, 0.0);
-    PrimitiveSpheres(primitive, chord, {0.0, 0.0}, shell).test(group);
+    PrimitiveSpheres(primitive, chord, 0.0, shell).test(group);
     for (int i = 0; i < group.size; ++i) {
       const SweptSide side = group.sideOf(i);
       if (side == SweptSide::kUnknown) continue;

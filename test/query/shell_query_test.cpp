@@ -9,6 +9,7 @@
 #include "field/field_access.h"
 #include "field/uniform/sparse_grid.h"
 #include "oracle/random.h"
+#include "oracle/screw_chords.h"
 #include "oracle/shapes.h"
 #include "sdf_ccd/field.h"
 #include "sdf_ccd/segments.h"
@@ -24,8 +25,7 @@ BoundingBall rootBall(const SphereTree& tree) {
 }
 
 /// Queries every point on every chord, without the tree. Grids are queried in batches, as in the shell query.
-std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& shell, const ChordPath& path,
-                                 double sigma) {
+std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& shell, const ChordPath& path) {
   std::vector<ShellHit> hits;
   for (int c = 0; c < int(path.chords.size()); ++c) {
     std::vector<Segment> segments;
@@ -33,11 +33,11 @@ std::vector<ShellHit> linearScan(const DistanceField& field, const PointShell& s
       segments.push_back({path.chords[c].X_FP_start * p, path.chords[c].X_FP_end * p});
     if (field.primitive()) {
       for (int i = 0; i < int(segments.size()); ++i)
-        for (const Interval& interval : segmentIntervals(field, segments[i], {sigma})) hits.push_back({i, c, interval});
+        for (const Interval& interval : segmentIntervals(field, segments[i])) hits.push_back({i, c, interval});
       continue;
     }
     BatchResult found;
-    segmentIntervals(field, segments.data(), segments.size(), {sigma, SegmentMode::kAll}, found);
+    segmentIntervals(field, segments.data(), segments.size(), {}, found);
     for (const SegmentHit& hit : found.hits) hits.push_back({int(hit.segment), c, {hit.enter, hit.exit}});
   }
   return hits;
@@ -105,11 +105,11 @@ TEST(ShellQuery, EqualsLinearScanOnAdaptiveField) {
     path.chords[0].X_FP_start = start;
     path.chords[0].X_FP_end = test::pose(random, 0.3, 0.1) * start;
     ShellQueryResult result;
-    shellIntervals(field, shell, tree, path, {}, result);
+    shellIntervals(field, shell, tree, path, result);
     std::map<int, double> inside;  // time by point
     for (const ShellHit& hit : allHits(result)) inside[hit.point] += hit.interval.exit - hit.interval.enter;
     hits += result.count();
-    for (const ShellHit& hit : linearScan(field, shell, path, 0.0))
+    for (const ShellHit& hit : linearScan(field, shell, path))
       inside[hit.point] -= hit.interval.exit - hit.interval.enter;
     for (const auto& [point, difference] : inside) grazing += std::abs(difference) > 1e-5;
   }
@@ -124,15 +124,12 @@ TEST(ShellQuery, EqualsLinearScanOnEveryPoint) {
     for (int i = 0; i < 200; ++i) {
       // Far and near, fast and slow, also with rotations by more than a right angle.
       const double reach = i % 4 == 0 ? 1.0 : 0.3;
-      RelativePath motion{{0.0, 0.5, 1.0},
-                          {test::pose(random, 3.0, reach), test::pose(random, 3.0, reach),
-                           test::pose(random, i % 2 ? 0.1 : 3.0, reach)}};
-      ChordPath path;
-      cutIntoChords(motion, rootBall(scene.tree), {i % 5 == 0 ? 1e-3 : 1e-1, 40}, path);
-      const double sigma = i % 3 == 0 ? 0.0 : test::uniform(random, -1, 1) * std::min(scene.field.band(), 0.02);
+      const std::vector<Isometry3d> poses{test::pose(random, 3.0, reach), test::pose(random, 3.0, reach),
+                                          test::pose(random, i % 2 ? 0.1 : 3.0, reach)};
+      const ChordPath path = test::screwChords(poses, rootBall(scene.tree), {i % 5 == 0 ? 1e-3 : 1e-1, 40}, 0.5);
       ShellQueryResult result;
-      shellIntervals(scene.field, scene.shell, scene.tree, path, {sigma}, result);
-      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, sigma));
+      shellIntervals(scene.field, scene.shell, scene.tree, path, result);
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path));
       if (HasFatalFailure()) return;
       hits += result.count();
       visits += result.points_tested;
@@ -156,8 +153,8 @@ TEST(ShellQuery, EqualsLinearScanWhereOneNodeHoldsAllPoints) {
       path.chords[0].X_FP_start = test::pose(random, 3.0, 0.05);
       path.chords[0].X_FP_end = test::pose(random, reach, reach) * path.chords[0].X_FP_start;
       ShellQueryResult result;
-      shellIntervals(scene.field, scene.shell, root, path, {}, result);
-      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, 0.0));
+      shellIntervals(scene.field, scene.shell, root, path, result);
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path));
       if (HasFatalFailure()) return;
     }
   }
@@ -186,11 +183,10 @@ TEST(ShellQuery, EqualsLinearScanOnAdversarialMotions) {
       ends.push_back({at(a), at(b)});
     }
     for (const auto& [from, to] : ends) {
-      ChordPath path;
-      cutIntoChords({{0.0, 1.0}, {from, to}}, rootBall(scene.tree), {1e-3, 40}, path);
+      const ChordPath path = test::screwChords({from, to}, rootBall(scene.tree), {1e-3, 40});
       ShellQueryResult result;
-      shellIntervals(scene.field, scene.shell, scene.tree, path, {}, result);
-      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path, 0.0));
+      shellIntervals(scene.field, scene.shell, scene.tree, path, result);
+      expectEqual(allHits(result), linearScan(scene.field, scene.shell, path));
       if (HasFatalFailure()) return;
     }
   }
@@ -229,10 +225,9 @@ TEST(ShellQuery, EqualsLinearScanOnMotionsOfAllKinds) {
           path.chords.push_back({double(c), c + 1.0, X_FP, end, 0});
           X_FP = end;
         }
-        const double sigma = i % 2 ? 0.0 : test::uniform(random, -1.0, 1.0) * std::min(field.band(), 0.02);
         ShellQueryResult result;
-        shellIntervals(field, shell, tree, path, {sigma}, result);
-        expectEqual(allHits(result), linearScan(field, shell, path, sigma));
+        shellIntervals(field, shell, tree, path, result);
+        expectEqual(allHits(result), linearScan(field, shell, path));
         if (HasFatalFailure()) FAIL() << kind.name;
         hits += long(result.hits.size());
         inside += result.count() - long(result.hits.size());
@@ -266,10 +261,10 @@ TEST(ShellQuery, EqualsLinearScanOnOpenMeshes) {
       ChordPath path;
       path.chords.push_back({0.0, 1.0, start, test::pose(random, 0.01, i % 2 ? 0.005 : 0.5) * start, 0});
       ShellQueryResult result;
-      shellIntervals(field, shell, tree, path, {}, result);
+      shellIntervals(field, shell, tree, path, result);
       std::map<int, double> inside;  // time by point
       for (const ShellHit& hit : allHits(result)) inside[hit.point] += hit.interval.exit - hit.interval.enter;
-      for (const ShellHit& hit : linearScan(field, shell, path, 0.0)) {
+      for (const ShellHit& hit : linearScan(field, shell, path)) {
         inside[hit.point] -= hit.interval.exit - hit.interval.enter;
       }
       for (const auto& [point, difference] : inside) grazing += std::abs(difference) > 1e-5;
@@ -297,45 +292,13 @@ TEST(ShellQuery, ListsHitsByChordWithThoseInsideAllAlong) {
                      {9, 3, {0.1, 0.2}}});
 }
 
-TEST(ShellQuery, RefusesAnIsovalueBeyondTheBandWhereverTheShellIs) {
-  const Scene scene = scenes()[0];
-  for (const double away : {0.0, 0.25, 5.0}) {
-    ChordPath path;
-    path.chords.emplace_back();
-    path.chords[0].X_FP_start = Isometry3d(Eigen::Translation3d(away, 0.0, 0.0));
-    path.chords[0].X_FP_end = path.chords[0].X_FP_start;
-    ShellQueryResult result;
-    EXPECT_THROW(shellIntervals(scene.field, scene.shell, scene.tree, path, {1.5 * scene.field.band()}, result),
-                 std::invalid_argument);
-  }
-}
-
 TEST(ShellQuery, RefusesAPathThatIsNotFinite) {
   for (const Scene& scene : scenes()) {
     ChordPath path;
-    cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, rootBall(scene.tree), {}, path);
+    path.chords.push_back({0.0, 1.0, Isometry3d::Identity(), Isometry3d::Identity(), 0});
     path.chords[0].X_FP_end.translation().setConstant(std::numeric_limits<double>::quiet_NaN());
     ShellQueryResult result;
-    EXPECT_THROW(shellIntervals(scene.field, scene.shell, scene.tree, path, {}, result), std::invalid_argument);
-  }
-}
-
-TEST(ShellQuery, ClearanceIsATightLowerBound) {
-  Random random(3);
-  const double slack = 0.002;
-  for (const Scene& scene : scenes()) {
-    for (int i = 0; i < 200; ++i) {
-      const Isometry3d X_FP = test::pose(random, 3.0, 0.6);
-      double nearest = 1e9, nearest_bound = 1e9;
-      for (const Vector3d& p : scene.shell.points()) {
-        const FieldSample at = scene.field.sample(X_FP * p);
-        nearest = std::min(nearest, at.value + at.error);
-        nearest_bound = std::min(nearest_bound, scene.field.lowerBound(X_FP * p));
-      }
-      const double found = clearance(scene.field, scene.tree, scene.shell, X_FP, slack);
-      EXPECT_LE(found, nearest + 1e-12);
-      EXPECT_GE(found, nearest_bound - slack - 1e-12);
-    }
+    EXPECT_THROW(shellIntervals(scene.field, scene.shell, scene.tree, path, result), std::invalid_argument);
   }
 }
 
@@ -349,7 +312,7 @@ TEST(ShellQuery, NodesWithoutPointsNeverHit) {
   path.chords.emplace_back();
   path.chords[0].X_FP_start = path.chords[0].X_FP_end = Isometry3d::Identity();
   ShellQueryResult result;
-  shellIntervals(field, shell, tree, path, {}, result);
+  shellIntervals(field, shell, tree, path, result);
   EXPECT_FALSE(result.touches());
 }
 
@@ -358,9 +321,9 @@ TEST(ShellQuery, EmptyShellNeverHits) {
   PointShell shell;
   const SphereTree tree = buildSphereTree(shell);
   ChordPath path;
-  cutIntoChords({{0.0, 1.0}, {Isometry3d::Identity(), Isometry3d::Identity()}}, {}, {}, path);
+  path.chords.push_back({0.0, 1.0, Isometry3d::Identity(), Isometry3d::Identity(), 0});
   ShellQueryResult result;
-  shellIntervals(field, shell, tree, path, {}, result);
+  shellIntervals(field, shell, tree, path, result);
   EXPECT_FALSE(result.touches());
 }
 

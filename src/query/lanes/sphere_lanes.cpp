@@ -146,14 +146,14 @@ class Sweeper {
       const VF beyond = hn::Max(hn::Max(below, above), real(0.0F));
       distance2 = hn::MulAdd(beyond, beyond, distance2);
     }
-    const VF margin = hn::Add(lanes.enter, real(sweep_.outside + sweep_.max_displacement));
+    const VF margin = hn::Add(lanes.enter, real(sweep_.margin + sweep_.max_displacement));
     return asWhole(hn::And(hn::Gt(margin, real(0.0F)), hn::Gt(distance2, hn::Mul(margin, margin))));
   }
 
   /// Clips paths to the neighbourhood of the surface's box. @return lanes that are entirely outside of it.
   MI clip(Lanes& lanes) const {
     const VF one = real(1.0F), minus_one = real(-1.0F), zero = real(0.0F);
-    const VF reach = hn::Add(lanes.enter, real(sweep_.outside));
+    const VF reach = hn::Add(lanes.enter, real(sweep_.margin));
     VF from = minus_one, to = one;
     for (int k = 0; k < 3; ++k) {
       const VF low = hn::Sub(hn::Sub(real(sweep_.surface_low[k]), reach), lanes.o[k]);
@@ -207,8 +207,7 @@ class Sweeper {
       passage.from2 = hn::MulAdd(from, from, passage.from2);
       passage.length2 = hn::MulAdd(lanes.d[k], lanes.d[k], passage.length2);
     }
-    const VF margin = hn::IfThenElse(asReal(balls.inside), real(sweep_.inside), real(sweep_.outside));
-    passage.margin = hn::Add(lanes.enter, margin);
+    passage.margin = hn::Add(lanes.enter, real(sweep_.margin));
     passage.radius = hn::Sub(balls.radius, passage.margin);
     return passage;
   }
@@ -326,8 +325,8 @@ void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGrou
   HWY_DYNAMIC_DISPATCH(sweepUniform)(grid, sweep, group, work);
 }
 
-SphereSweep::SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord,
-                         const SweptMargins& margins, const BoundingBall& shell) {
+SphereSweep::SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord, double margin_m,
+                         const BoundingBall& shell) {
   const auto start = chord.X_FP_start.matrix(), end = chord.X_FP_end.matrix();
   const double units = box.units_per_metre, reach = shell.center.norm() + shell.radius;
   double farthest = 0.0;  // upper bound of the sum of the terms of a coordinate
@@ -346,8 +345,7 @@ SphereSweep::SphereSweep(const DistanceField& field, const LaneBox& box, const C
   const Matrix3d difference = 0.5 * (chord.X_FP_end.linear() - chord.X_FP_start.linear());
   const Vector3d travel = 0.5 * (chord.X_FP_end * shell.center - chord.X_FP_start * shell.center);
   max_displacement = static_cast<float>(units * (travel.norm() + difference.norm() * shell.radius));
-  outside = static_cast<float>(margins.outside * units);
-  inside = static_cast<float>(margins.inside * units);
+  margin = static_cast<float>(margin_m * units);
 }
 
 }  // namespace sdf_ccd

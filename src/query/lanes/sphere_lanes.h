@@ -32,9 +32,9 @@ struct SphereGroup {
 
 /// A chord in a grid, as read by vector code: lengths in units, points relative to the grid's origin.
 struct SphereSweep {
-  /// @param margins  added to the spheres' radii.
-  /// @param shell    contains the spheres' centres, frame P.
-  SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord, const SweptMargins& margins,
+  /// @param margin  added to the spheres' radii [m].
+  /// @param shell   contains the spheres' centres, frame P.
+  SphereSweep(const DistanceField& field, const LaneBox& box, const Chord& chord, double margin,
               const BoundingBall& shell);
 
   /// Whether paths are much longer than most empty spheres: then they are followed from one to the next. (Up to this
@@ -45,7 +45,7 @@ struct SphereSweep {
   std::array<std::array<float, 4>, 3> middle, displacement;
   float max_displacement;  ///< upper bound of the spheres' displacements from their positions at the middle
   float rounding;          ///< upper bound of the error of single precision; not finite if that is too large
-  float outside, inside;   ///< margins
+  float margin;            ///< added to the spheres' radii
   std::array<float, 3> surface_low, surface_high;  ///< box around the surface
 };
 
@@ -56,7 +56,7 @@ struct SphereWork {
 };
 
 /// Finds the side of the surface on which each sphere surely stays along a whole chord, as sweptSide() with the radius
-/// added to its margins; conservative too.
+/// added to its margin; conservative too.
 void sweepSpheres(const AdaptiveLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
 void sweepSpheres(const UniformLanes& grid, const SphereSweep& sweep, SphereGroup& group, SphereWork& work);
 
