@@ -206,7 +206,7 @@ void CollisionMonitor::betweenCycles() {
 void CollisionMonitor::cycle() {
   const CycleWatchdog::Cycle watched(*watchdog_);
   diagnostics_->tick();
-  if (services_->takeReset()) {
+  if (services_->consumeReset()) {
     loop_->reset();
     if (live_map_) live_map_->forget();
     restart("reset");
@@ -247,7 +247,7 @@ void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
 void CollisionMonitor::publishCycle() {
   last_step_ = ros::WallTime::now();
   last_idle_ = ros::WallTime();
-  const boost::shared_ptr<MonitorState> state = state_messages_.take();
+  const boost::shared_ptr<MonitorState> state = state_messages_.acquire();
   const ros::Time sent = ros::Time::now();
   loop_->watchFixedFrame();
   setMonitorState(*loop_, sent, *state);

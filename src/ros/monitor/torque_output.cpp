@@ -40,7 +40,7 @@ void TorqueOutput::advertise(ros::NodeHandle private_node) {
 }
 
 boost::shared_ptr<sensor_msgs::JointState> TorqueOutput::toMessage(MonitorLoop& loop) {
-  const boost::shared_ptr<sensor_msgs::JointState> message = messages_.take();
+  const boost::shared_ptr<sensor_msgs::JointState> message = messages_.acquire();
   set(loop, *message);
   return message;
 }
