@@ -65,13 +65,13 @@ TEST(MessagePool, GivesNoMessageThatSomebodyHolds) {
   MessagePool<int> pool;
   std::vector<boost::shared_ptr<int>> held;
   for (int i = 0; i < 100; ++i) {
-    held.push_back(pool.take());
+    held.push_back(pool.acquire());
     EXPECT_EQ(*held.back(), 0);
     *held.back() = 1;
   }
   const int* const first = held.front().get();
   held.erase(held.begin());
-  EXPECT_EQ(pool.take().get(), first);
+  EXPECT_EQ(pool.acquire().get(), first);
 }
 
 }  // namespace sdf_ccd::ordered_worker_test

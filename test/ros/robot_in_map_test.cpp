@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/scene_case.h"
-#include "ros/monitor/robot_masks.h"
+#include "ros/monitor/robot_in_map.h"
 #include "ros/tf_messages.h"
 
 namespace sdf_ccd::robot_in_map_test {
@@ -81,7 +81,7 @@ TEST_F(RobotInMapTest, WhereTfLagsThePresentPoseIsNotTakenForThatAtTheStamp) {
   EXPECT_FALSE(robot.isAheadOfTf(0.3));
   EXPECT_EQ(robot.unknown(), 1u);
   EXPECT_EQ(robot.problem(), "hand is known from 100.000 s to 102.000 s, not at 102.400 s");
-  const std::vector<VoxelMask> masks = robotMasks(*world_, robot.bodies());
+  const std::vector<VoxelMask> masks = robotMasks(world_->scene(), world_->description(), robot.bodies()).masks;
   ASSERT_EQ(masks.size(), 2u);
   EXPECT_TRUE(masks[0].only_unknown);
   EXPECT_FALSE(masks[1].only_unknown);

@@ -74,16 +74,16 @@ class Arm {
       loop_->history().watchClock(now);
       loop_->history().add(message, false);
       if (loop_->step(now, {true, 5}) != TfTracker::Step::kCycle) continue;
-      const boost::shared_ptr<ContactArray> contacts = contacts_.take();
+      const boost::shared_ptr<ContactArray> contacts = contacts_.acquire();
       setContactArray(*loop_, *contacts);
-      const boost::shared_ptr<MonitorState> state = states_.take();
+      const boost::shared_ptr<MonitorState> state = states_.acquire();
       setMonitorState(*loop_, now, *state);
       measure_->setState(measure_->measure(false), *state);
       health_.recordCycle(*loop_, *state, measure_->safety(), now);
       limited_ += state->velocity_scale < 1.0 && !state->velocity_limit.empty();
       warned_ += !health_.health().finding.empty();
       loop_->measureDistances(0.5);
-      const boost::shared_ptr<DistanceArray> distances = distances_.take();
+      const boost::shared_ptr<DistanceArray> distances = distances_.acquire();
       setDistanceArray(*loop_, 0.5, *distances);
       EXPECT_FALSE(distances->distances.empty());
       ++cycles_[contacts->verdict];
@@ -165,13 +165,13 @@ class Gripper {
   }
 
   void report(const ros::Time& now) {
-    const boost::shared_ptr<ContactArray> contacts = contacts_pool_.take();
+    const boost::shared_ptr<ContactArray> contacts = contacts_pool_.acquire();
     setContactArray(*loop_, *contacts);
-    const boost::shared_ptr<MonitorState> state = states_.take();
+    const boost::shared_ptr<MonitorState> state = states_.acquire();
     setMonitorState(*loop_, now, *state);
     for (int body = 0; body < 2; ++body) setWrenchStamped(*loop_, body, wrench_);
     const boost::shared_ptr<sensor_msgs::JointState> torques = torques_->toMessage(*loop_);
-    snapshot_.take(*loop_);
+    snapshot_.copyFrom(*loop_);
     CycleSafety safety;  // as of a cycle in contact
     safety.finding = CycleFinding::kContact;
     safety.health = Health::kOk;

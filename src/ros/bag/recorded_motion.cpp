@@ -99,7 +99,7 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   if (!has_tf && links.empty()) {
     throw std::runtime_error(file_ + ": holds no tf, and the robot has no other links whose joints could move");
   }
-  takeJointStates(described, movable, has_tf);
+  chooseJointStates(described, movable, has_tf);
   fixed_links_ = joints_.fixed(begin_, [&](const std::string& link) { return !isNamed(link); }).transforms.size();
   const bool is_link = std::find(links.begin(), links.end(), described.fixed_frame) != links.end();
   if (wanted.count(described.fixed_frame) > 0 && !is_link) {
@@ -108,8 +108,8 @@ void RecordedMotion::findFrames(const DescribedScene& described) {
   }
 }
 
-void RecordedMotion::takeJointStates(const DescribedScene& described, const std::vector<std::string>& movable,
-                                     bool has_tf) {
+void RecordedMotion::chooseJointStates(const DescribedScene& described, const std::vector<std::string>& movable,
+                                       bool has_tf) {
   const auto isInTf = [&](const std::string& frame) { return tf_frames_.count(frame) > 0; };
   std::vector<std::string> lacking;
   std::remove_copy_if(movable.begin(), movable.end(), std::back_inserter(lacking), isInTf);

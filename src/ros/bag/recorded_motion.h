@@ -57,7 +57,7 @@ class RecordedMotion {
  private:
   void findTopics();
   void findFrames(const DescribedScene& described);
-  void takeJointStates(const DescribedScene& described, const std::vector<std::string>& movable, bool has_tf);
+  void chooseJointStates(const DescribedScene& described, const std::vector<std::string>& movable, bool has_tf);
   std::string findJointStates();  // sets the topic and joint_frames_, or returns why there is none
   void playMessage(const rosbag::MessageInstance& message,
                    const std::function<void(const RecordedTransforms&)>& each) const;

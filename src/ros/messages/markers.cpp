@@ -101,8 +101,8 @@ MarkerArray MarkerDrawer::draw(const CycleResult& result, const CycleContext& cy
   return markers;
 }
 
-void MarkerDrawer::take(const std::vector<int>& before) {
-  states_.take(before);
+void MarkerDrawer::switchPairs(const std::vector<int>& before) {
+  states_.switchPairs(before);
   deletes_all_ |= !shown_.empty();
   shown_.clear();
   numbers_ = 0;

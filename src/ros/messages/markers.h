@@ -43,7 +43,7 @@ class MarkerDrawer {
 
   /// Switches to another world: markers of pairs that no longer exist are deleted.
   /// @param before  per pair: its former index; -1 if it is new.
-  void take(const std::vector<int>& before);
+  void switchPairs(const std::vector<int>& before);
 
   /// The states that were drawn last.
   const PairStates& states() const { return states_; }

@@ -13,7 +13,7 @@ template <class Message>
 class MessagePool {
  public:
   /// A message that nobody else holds. It still has its former contents.
-  boost::shared_ptr<Message> take() {
+  boost::shared_ptr<Message> acquire() {
     for (std::size_t i = 0; i < messages_.size(); ++i) {
       next_ = (next_ + 1) % messages_.size();
       if (messages_[next_].use_count() == 1) return messages_[next_];

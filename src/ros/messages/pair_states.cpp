@@ -23,7 +23,7 @@ void PairStates::update(const CycleResult& result, const CycleContext& cycle) {
   }
 }
 
-void PairStates::take(const std::vector<int>& before) {
+void PairStates::switchPairs(const std::vector<int>& before) {
   std::vector<PairState> pairs(before.size());
   for (std::size_t p = 0; p < before.size(); ++p) {
     const auto old = static_cast<std::size_t>(before[p]);

@@ -30,7 +30,7 @@ class PairStates {
   void update(const CycleResult& result, const CycleContext& cycle);
 
   /// Switches to other pairs. @param before  per pair: its former index; -1 if it is new.
-  void take(const std::vector<int>& before);
+  void switchPairs(const std::vector<int>& before);
 
   /// Makes all pairs NOT_CHECKED.
   void clear();

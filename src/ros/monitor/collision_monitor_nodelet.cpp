@@ -10,9 +10,9 @@
 #include "common/cancel_point.h"
 #include "common/counted.h"
 #include "common/number_text.h"
+#include "monitor/map/map_distances.h"
 #include "ros/messages/world_markers.h"
 #include "ros/monitor/cycle_messages.h"
-#include "ros/monitor/map_distances.h"
 #include "scene/geometry_keys.h"
 
 namespace sdf_ccd {
@@ -149,7 +149,7 @@ void CollisionMonitor::setUp() {
     live_map_ = std::make_unique<LiveMap>(getNodeHandle(), parameters_, *scene_editor_, loop_->history(),
                                           LiveMap::Place{described_.root_frame, loop_->warnings()}, stop_);
   }
-  loop_->warnings().set("distances to the map", distancesWithinPadding(parameters_));
+  warnAboutMapDistances();
   reconfiguration_ = std::make_unique<Reconfiguration>(services_->node(), parameters_, wake);
   health_watch_.health().building.clear();
   restart("waiting for transforms");
@@ -199,14 +199,20 @@ void CollisionMonitor::betweenCycles() {
   trigger_.setOptions(parameters_.trigger);
   proximity_->setParameters(parameters_.proximity);
   outputs_->markers().setOptions(parameters_.markers);
-  loop_->warnings().set("distances to the map", distancesWithinPadding(parameters_));
+  warnAboutMapDistances();
   health_watch_.health().wanted_rate = parameters_.rate;
+}
+
+void CollisionMonitor::warnAboutMapDistances() {
+  const LiveMapParameters& map = parameters_.live_map;
+  loop_->warnings().set("distances to the map",
+                        map.topic.empty() ? "" : distancesWithinPadding(parameters_.proximity.thresholds, map.padding));
 }
 
 void CollisionMonitor::cycle() {
   const CycleWatchdog::Cycle watched(*watchdog_);
   diagnostics_->tick();
-  if (services_->takeReset()) {
+  if (services_->consumeReset()) {
     loop_->reset();
     if (live_map_) live_map_->forget();
     restart("reset");
@@ -247,7 +253,7 @@ void CollisionMonitor::reportLongCycle(CycleWatchdog::Seconds elapsed) const {
 void CollisionMonitor::publishCycle() {
   last_step_ = ros::WallTime::now();
   last_idle_ = ros::WallTime();
-  const boost::shared_ptr<MonitorState> state = state_messages_.take();
+  const boost::shared_ptr<MonitorState> state = state_messages_.acquire();
   const ros::Time sent = ros::Time::now();
   loop_->watchFixedFrame();
   setMonitorState(*loop_, sent, *state);

@@ -52,6 +52,7 @@ class CollisionMonitor : public nodelet::Nodelet {
   void logProgress(const std::string& progress);
   std::string attempt(const std::function<void()>& work) const;
   void betweenCycles();
+  void warnAboutMapDistances();
   void cycle();
   bool isSilent() const;
   void reportLongCycle(CycleWatchdog::Seconds elapsed) const;

@@ -2,7 +2,7 @@
 
 namespace sdf_ccd {
 
-void CycleSnapshot::take(const MonitorLoop& loop) {
+void CycleSnapshot::copyFrom(const MonitorLoop& loop) {
   const CycleResult& result = loop.result();
   world_ = loop.world();
   motion_ = loop.cycle().motion;

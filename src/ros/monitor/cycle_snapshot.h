@@ -9,7 +9,7 @@ namespace sdf_ccd {
 class CycleSnapshot {
  public:
   /// Copies the loop's last cycle; of pairs without contact only verdict, reason, span and clearance. Memory is reused.
-  void take(const MonitorLoop& loop);
+  void copyFrom(const MonitorLoop& loop);
 
   /// Releases the world.
   void release() { world_.reset(); }

@@ -13,7 +13,6 @@
 #include "field/grid_cell.h"
 #include "robot_monitor/awaited_tile.h"
 #include "ros/monitor/low_priority.h"
-#include "ros/monitor/robot_masks.h"
 #include "ros/tf/seconds_between.h"
 
 namespace sdf_ccd {
@@ -164,7 +163,10 @@ std::vector<VoxelMask> LiveMap::masksOf(const CheckedWorld& world, RobotInMap& r
     ROS_WARN_THROTTLE(10.0, "Voxels of the robot itself in a map count as obstacles where its pose is not known: %s",
                       robot.problem().c_str());
   }
-  return robotMasks(world, robot.bodies());
+  RobotMasks found = robotMasks(world.scene(), world.description(), robot.bodies());
+  if (!found.without_field.empty())
+    ROS_WARN_ONCE("Voxels that %s fills count, as it has no field", found.without_field.c_str());
+  return std::move(found.masks);
 }
 
 /// A clock that went back, a reset, or a frame that moved: nothing is known any more of what was there before.

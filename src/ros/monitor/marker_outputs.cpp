@@ -35,7 +35,7 @@ void MarkerOutputs::countSubscribers() {
 void MarkerOutputs::draw() {
   Drawing* const drawing = next(wants_markers_ || wants_links_);
   if (!drawing) return;
-  if (drawing->has_cycle) drawing->snapshot.take(loop_);
+  if (drawing->has_cycle) drawing->snapshot.copyFrom(loop_);
   worker_->handOver();
 }
 
@@ -75,7 +75,7 @@ bool MarkerOutputs::isWorldDue() const {
 
 void MarkerOutputs::finish() {
   is_finishing_ = true;
-  if (is_unchecked_) {  // others waited; their cycles are not drawn any more, so that there is soon room
+  if (is_unchecked_) {  // others waited; their cycles are not drawn any more, so that there is room again
     worker_->next();
     if (next(false)) worker_->handOver();
   }
@@ -100,9 +100,8 @@ void MarkerOutputs::draw(const Drawing& drawing) {
   const bool draws_cycle = drawing.has_cycle && !is_finishing_;
   if (draws_cycle) {
     drawer_.setOptions(drawing.options);
-    const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(
-        drawer_.draw(drawing.snapshot.result(), drawing.snapshot.context(), ros::Time::now(),
-                     drawing.snapshot.warnings()));
+    const auto markers = boost::make_shared<visualization_msgs::MarkerArray>(drawer_.draw(
+        drawing.snapshot.result(), drawing.snapshot.context(), ros::Time::now(), drawing.snapshot.warnings()));
     if (drawing.draws_markers) markers_.publish(markers);
   }
   if (drawing.draws_links && (draws_cycle || drawing.is_unchecked)) drawLinks();
@@ -111,7 +110,7 @@ void MarkerOutputs::draw(const Drawing& drawing) {
 /// Called by the drawing thread.
 void MarkerOutputs::setDrawnWorld(const std::shared_ptr<const CheckedWorld>& world) {
   if (world == drawn_) return;
-  if (drawn_) drawer_.take(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
+  if (drawn_) drawer_.switchPairs(findPairs(pairNames(world->scene()), pairNames(drawn_->scene())));
   link_markers_ = std::make_unique<LinkMarkers>(world->description());
   drawn_ = world;
 }

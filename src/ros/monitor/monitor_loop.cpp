@@ -168,7 +168,12 @@ void MonitorLoop::run(const CycleRequest& request) {
 }
 
 void MonitorLoop::guardRigid() {
-  const std::vector<UncheckedPair> unchecked = rigid_guard_->check(history_, cycle_);
+  if (cycle_.samples.empty()) return;
+  const auto wasKnown = [this](int body, double time) {
+    const TfSpan known = history_.span(withoutLeadingSlash(scene().bodies[body].frame));
+    return known.problem.empty() && known.first <= cycle_.origin + ros::Duration(time);
+  };
+  const std::vector<UncheckedPair> unchecked = rigid_guard_->check(cycle_.motion, cycle_.watched, wasKnown);
   if (unchecked.empty()) return;
   guarded_ = *result_;
   addUnchecked(unchecked, guarded_);

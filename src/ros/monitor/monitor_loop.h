@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "robot_monitor/rigid_guard.h"
 #include "robot_monitor/robot_pair_traits.h"
-#include "ros/monitor/rigid_guard.h"
 #include "ros/monitor/standing_warnings.h"
 #include "ros/parameters/parameters.h"
 #include "ros/world/checked_world.h"

@@ -45,7 +45,7 @@ class MonitorServices {
   void setReady(Queries& queries, SceneEditor& editor, const std::string& fixed_frame, bool may_reset);
 
   /// Whether a reset has been requested since the last call.
-  bool takeReset() { return reset_requested_.exchange(false); }
+  bool consumeReset() { return reset_requested_.exchange(false); }
 
   /// Answers no more requests.
   void stop();

@@ -145,13 +145,13 @@ void Outputs::publish(const boost::shared_ptr<MonitorState>& state, const boost:
   report.has_contact_states = contact_states_wanted_;
   if (torques_wanted_ && are_all_ready_) report.torques = torques_.toMessage(loop_);
   if (contacts_wanted_) {
-    report.contacts = contact_messages_.take();
+    report.contacts = contact_messages_.acquire();
     setContactArray(loop_, *report.contacts);
   }
   for (std::size_t i = 0; i < wrenches_.size() && wrenches_wanted_; ++i) {
     LinkWrench& link = wrenches_[i];
     if (!link.is_wanted || !link.is_ready || !loop_.cycle().motion.missing[link.body].empty()) continue;
-    report.wrenches.emplace_back(link.publisher, link.messages->take());
+    report.wrenches.emplace_back(link.publisher, link.messages->acquire());
     setWrenchStamped(loop_, link.body, *report.wrenches.back().second);
   }
   worker_->handOver();

@@ -27,7 +27,7 @@ boost::shared_ptr<DistanceArray> ProximityOutputs::measure(MonitorState& state) 
   warnOfStandstill();
   if (ways_out_.getNumSubscribers() > 0) ways_out_.publish(toWaysOut(loop_, measure_.rules()));
   if (!lists_distances) return nullptr;
-  const boost::shared_ptr<DistanceArray> message = messages_.take();
+  const boost::shared_ptr<DistanceArray> message = messages_.acquire();
   setDistanceArray(loop_, measure_.parameters().report_distance, *message);
   return message;
 }

@@ -12,8 +12,8 @@ namespace sdf_ccd {
 
 /// An answer to a query while it is made.
 struct QueryWork {
-  double spent = 0.0;   ///< without waiting [s]
-  std::string used_by;  ///< what took most of the time, if the answer is cancelled
+  double run_time = 0.0;  ///< without waiting [s]
+  std::string used_by;    ///< what took most of the time, if the answer is cancelled
 };
 
 inline std::chrono::steady_clock::duration durationOf(double seconds) {
@@ -26,10 +26,10 @@ class QueryPiece {
   /// @param seconds  that the answer may take.
   /// @throws Cancelled if it takes longer; so does the work of the piece.
   QueryPiece(WorkTurns& turns, double seconds, QueryWork& work)
-      : turn_(turns), work_(work), start_(Clock::now()), deadline_(start_ + durationOf(seconds - work.spent)) {
+      : turn_(turns), work_(work), start_(Clock::now()), deadline_(start_ + durationOf(seconds - work.run_time)) {
     checkCancelled();
   }
-  ~QueryPiece() { work_.spent += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~QueryPiece() { work_.run_time += std::chrono::duration<double>(Clock::now() - start_).count(); }
   QueryPiece(const QueryPiece&) = delete;
   QueryPiece& operator=(const QueryPiece&) = delete;
 

@@ -155,7 +155,7 @@ void ConfigServer<Config>::set(Config& config) {
 }
 
 template <class Config>
-std::optional<Config> ConfigServer<Config>::take() {
+std::optional<Config> ConfigServer<Config>::changes() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!has_changed_) return std::nullopt;
   has_changed_ = false;
@@ -173,9 +173,9 @@ Reconfiguration::Reconfiguration(const ros::NodeHandle& private_node, const Moni
 }
 
 bool Reconfiguration::apply(MonitorParameters& parameters) {
-  const std::optional<CollisionMonitorConfig> monitor = monitor_.take();
+  const std::optional<CollisionMonitorConfig> monitor = monitor_.changes();
   if (monitor) sdf_ccd::apply(*monitor, parameters);
-  const std::optional<VelocityScaleConfig> scale = velocity_scale_ ? velocity_scale_->take() : std::nullopt;
+  const std::optional<VelocityScaleConfig> scale = velocity_scale_ ? velocity_scale_->changes() : std::nullopt;
   if (scale) sdf_ccd::apply(*scale, *parameters.proximity.promise);
   return monitor || scale;
 }

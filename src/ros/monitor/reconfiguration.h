@@ -27,7 +27,7 @@ class ConfigServer {
                std::function<void()> changed);
 
   /// The values set since the last call.
-  std::optional<Config> take();
+  std::optional<Config> changes();
 
  private:
   void set(Config& config);

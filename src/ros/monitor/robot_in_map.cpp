@@ -11,7 +11,7 @@ void RobotInMap::update(const CheckedWorld& world) {
   bodies_.clear();
   lags_.clear();
   problem_.clear();
-  unknown_ = lost_ = 0;
+  unknown_ = without_pose_ = 0;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (world.scene().bodies[b].is_world) continue;
     const TrackedBody& body = world.bodies[b];
@@ -36,7 +36,7 @@ void RobotInMap::update(const CheckedWorld& world) {
       add(X_WF_now, X_WM_now, false);
     } else {
       ++unknown_;
-      ++lost_;
+      ++without_pose_;
     }
   }
 }

@@ -4,17 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "monitor/map/robot_masks.h"
 #include "ros/world/checked_world.h"
 
 namespace sdf_ccd {
-
-/// Pose of a body of the robot, or of an object attached to it, in a map.
-struct BodyInMap {
-  std::size_t body = 0;                      ///< index in the world
-  Isometry3d X_BM = Isometry3d::Identity();  ///< of the map's frame in the body's
-  bool is_at_stamp = false;                  ///< at the map's stamp; else at the newest time that tf knows
-  bool was_elsewhere = false;                ///< at the stamp, as it was attached later
-};
 
 /// Where the robot and the objects attached to it are in a map, according to tf.
 ///
@@ -42,7 +35,7 @@ class RobotInMap {
   const std::string& problem() const { return problem_; }
 
   /// Whether some pose of each body is known.
-  bool isSomewhere() const { return lost_ == 0; }
+  bool isSomewhere() const { return without_pose_ == 0; }
 
   /// Number of bodies whose pose at the stamp is not known, plus those of which no pose is known at all.
   std::size_t unknown() const { return unknown_; }
@@ -58,7 +51,7 @@ class RobotInMap {
   std::vector<BodyInMap> bodies_;
   std::vector<double> lags_;  // per frame whose transforms end before the stamp: by how much [s]
   std::string problem_;
-  std::size_t unknown_ = 0, lost_ = 0;
+  std::size_t unknown_ = 0, without_pose_ = 0;
 };
 
 }  // namespace sdf_ccd

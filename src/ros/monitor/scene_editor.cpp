@@ -37,19 +37,19 @@ class SceneEditor::Turn {
     const bool is_map = changer == Changer::kMap;
     std::unique_lock<std::mutex> lock(editor.turn_mutex_);
     editor.maps_waiting_ += is_map;
-    while (editor.is_taken_ || (!is_map && editor.maps_waiting_ > 0)) {
+    while (editor.is_busy_ || (!is_map && editor.maps_waiting_ > 0)) {
       editor.turn_changed_.wait_for(lock, kTurnPeriod);
       if (!cancel.requested()) continue;
       editor.maps_waiting_ -= is_map;
       throw Cancelled();
     }
     editor.maps_waiting_ -= is_map;
-    editor.is_taken_ = true;
+    editor.is_busy_ = true;
   }
   ~Turn() {
     {
       const std::lock_guard<std::mutex> lock(editor_.turn_mutex_);
-      editor_.is_taken_ = false;
+      editor_.is_busy_ = false;
     }
     editor_.turn_changed_.notify_all();
   }

@@ -32,7 +32,7 @@ class SceneEditor {
   };
 
   /// @param editor  of the first version of the world, which `parts` use.
-  /// @param wake    called when a version is ready: the thread of the cycles should call adopt() soon.
+  /// @param wake    called when a version is ready: the thread of the cycles should call adopt().
   /// @param changed  called by the changing thread when the cycles have adopted a version, or will adopt it.
   SceneEditor(std::unique_ptr<WorldEditor> editor, const DescribedScene& described, const MonitorParameters& parameters,
               const Parts& parts, std::function<void()> wake, std::function<void(const CheckedWorld&)> changed);
@@ -91,7 +91,7 @@ class SceneEditor {
 
   std::mutex turn_mutex_;
   std::condition_variable turn_changed_;
-  bool is_taken_ = false;  // guarded by turn_mutex_, as maps_waiting_: the right to make the next version
+  bool is_busy_ = false;  // guarded by turn_mutex_, as maps_waiting_: somebody makes the next version
   int maps_waiting_ = 0;
 
   std::mutex last_mutex_;

@@ -8,14 +8,14 @@
 #include <sensor_msgs/JointState.h>
 #include <boost/shared_ptr.hpp>
 
-#include "robot/joint_torques.h"
+#include "robot_monitor/contact_torques.h"
 #include "ros/messages/message_pool.h"
 #include "ros/monitor/monitor_loop.h"
 #include "ros/world/describe_scene.h"
 
 namespace sdf_ccd {
 
-/// Computes the forces and torques of the contact wrenches at the robot's joints.
+/// Publishes the forces and torques of the contact wrenches at the robot's joints.
 ///
 /// Publishes, below the node's name:
 ///   joint_torques  sensor_msgs/JointState  every cycle: effort is the generalised force of all contacts, averaged over
@@ -29,7 +29,7 @@ class TorqueOutput {
   std::vector<int> linksOf(const Scene& scene) const;
 
   /// To be called before set(), and between two cycles when the scene changes.
-  void swapLinks(std::vector<int>& links) { link_of_body_.swap(links); }
+  void swapLinks(std::vector<int>& links) { torques_.swapLinks(links); }
 
   void advertise(ros::NodeHandle private_node);
 
@@ -44,9 +44,8 @@ class TorqueOutput {
  private:
   void findLinks(const TfHistory& history, const TrackedCycle& cycle);
 
-  JointTorques torques_;
+  ContactTorques torques_;
   std::vector<std::string> frames_;  // per link
-  std::vector<int> link_of_body_;    // see linksOf()
   ros::Publisher publisher_;
   MessagePool<sensor_msgs::JointState> messages_;
 
@@ -55,10 +54,6 @@ class TorqueOutput {
   std::vector<TfSpan> spans_;
   std::vector<TimePart> parts_;
   TfWindow window_;
-
-  std::vector<Isometry3d> X_WL_;  // per link
-  std::vector<Wrench> wrenches_;
-  std::vector<char> is_known_;
 };
 
 }  // namespace sdf_ccd

@@ -33,7 +33,7 @@ TransformListener::~TransformListener() {
 
 ros::Subscriber TransformListener::subscribe(const std::string& tf_topic, bool is_static) {
   const boost::function<void(const tf2_msgs::TFMessageConstPtr&)> add =
-      [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { take(*message, is_static); };
+      [this, is_static](const tf2_msgs::TFMessageConstPtr& message) { receive(*message, is_static); };
   return node_.subscribe<tf2_msgs::TFMessage>(tf_topic, kQueue, add, ros::VoidConstPtr(),
                                               ros::TransportHints().tcpNoDelay());
 }
@@ -46,7 +46,7 @@ void TransformListener::recoverStatic() {
 }
 
 /// An exception that escaped would end the nodelet manager with all its nodelets.
-void TransformListener::take(const tf2_msgs::TFMessage& message, bool is_static) {
+void TransformListener::receive(const tf2_msgs::TFMessage& message, bool is_static) {
   try {
     history_.watchClock(ros::Time::now());
     history_.add(message, is_static);

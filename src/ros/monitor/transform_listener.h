@@ -34,7 +34,7 @@ class TransformListener {
 
  private:
   ros::Subscriber subscribe(const std::string& tf_topic, bool is_static);
-  void take(const tf2_msgs::TFMessage& message, bool is_static);
+  void receive(const tf2_msgs::TFMessage& message, bool is_static);
 
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;

@@ -1,13 +1,10 @@
-#include "ros/monitor/map_distances.h"
+#include "map_distances.h"
 
 #include "common/number_text.h"
 
 namespace sdf_ccd {
 
-std::string distancesWithinPadding(const MonitorParameters& parameters) {
-  const double padding = parameters.live_map.padding;
-  const ProximityThresholds& thresholds = parameters.proximity.thresholds;
-  if (parameters.live_map.topic.empty()) return {};
+std::string distancesWithinPadding(const ProximityThresholds& thresholds, double padding) {
   std::string below;
   for (const auto& [name, distance] :
        {std::pair("stop_distance", thresholds.stop), std::pair("warning_distance", thresholds.warning)}) {
