@@ -146,14 +146,18 @@ class QueriesTest(MonitorCase):
         self.assertIn('motion 3: joint slide: position 5 is beyond its limits', answer.message)
 
     def test_query_points(self):
-        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
+        answer = self.query_points(header=Header(), points=[Point(0.45, 0.0, 0.0), Point(0.5, 0.25, 0.0)])
         self.assertTrue(answer.success, answer.message)
         outside, inside = answer.points
         self.assertEqual((outside.body, inside.body), ('plate', 'plate'))
         self.assertAlmostEqual(outside.distance, PLATE - 0.45, delta=1e-6)
         self.assertAlmostEqual(inside.distance, -0.0005, delta=1e-6)
         self.assertAlmostEqual(outside.gradient.x, -1.0, delta=1e-6)
-        answer = self.query_points(Header(frame_id='nowhere'), [Point(0.45, 0.0, 0.0)])
+        approximate = self.query_points(header=Header(), points=[Point(0.45, 0.0, 0.0)], approximate=True)
+        self.assertTrue(approximate.success, approximate.message)
+        self.assertAlmostEqual(approximate.points[0].distance, answer.points[0].distance,
+                               delta=approximate.points[0].error + 1e-9)
+        answer = self.query_points(header=Header(frame_id='nowhere'), points=[Point(0.45, 0.0, 0.0)])
         self.assertFalse(answer.success)
         self.assertIn('nowhere', answer.message)
 
@@ -168,10 +172,10 @@ class QueriesTest(MonitorCase):
         answer = self.query_motion(trajectory('slide', [0.0, 1.0] * 50))
         self.assertEqual(answer.verdict, Verdict.CONTACT)
         self.assertEqual(len(answer.pairs[0].intervals), 99)
-        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0)] * 20001)
+        answer = self.query_points(header=Header(), points=[Point(0.45, 0.0, 0.0)] * 20001)
         self.assertFalse(answer.success)
         self.assertIn('20001 points: at most 20000 are allowed', answer.message)
-        answer = self.query_points(Header(), [Point(0.45, 0.0, 0.0), Point(1e300, 0.0, 0.0)])
+        answer = self.query_points(header=Header(), points=[Point(0.45, 0.0, 0.0), Point(1e300, 0.0, 0.0)])
         self.assertFalse(answer.success)
         self.assertEqual(answer.points, [])
         self.assertIn('point 1 is more than 1e+08 m', answer.message)
