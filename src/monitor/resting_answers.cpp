@@ -121,16 +121,23 @@ void setResting(const RestingAnswer& answer, const SweptBodies& bodies, double e
     point.normal_W = X.linear() * point.normal_W;
     return point;
   };
+  // Depths and times are those of the pose; errors contain that of the pose, which may be another one now.
+  const double more = error + RestingAnswers::kMoved - answer.error;
+  const auto deepest = [&](const ContactPoint& point) {
+    ContactPoint now = placed(point);
+    if (known.measured) now.depth_error = std::max(error, now.depth_error + more);
+    return now;
+  };
   result.verdict = known.verdict;
   result.reason = known.reason;
   result.error = known.error;
-  // Depths are those of the pose itself, whatever its error was.
-  result.error.chord = std::max(error, known.error.chord + error + RestingAnswers::kMoved - answer.error);
+  result.error.chord = std::max(error, known.error.chord + more);
   result.contact_error = known.contact_error;
+  if (known.contact_error.total() > 0.0) result.contact_error.chord = std::max(error, known.contact_error.chord + more);
   result.measured = known.measured;
   for (const Interval& interval : known.intervals)
     result.intervals.push_back({time(interval.enter), time(interval.exit)});
-  if (!known.intervals.empty()) result.deepest = placed(known.deepest);
+  if (!known.intervals.empty()) result.deepest = deepest(known.deepest);
   const auto timesOf = [&](const std::optional<Interval>& touch) {
     return touch ? std::make_optional(Interval{time(touch->enter), time(touch->exit)}) : std::nullopt;
   };
@@ -138,7 +145,7 @@ void setResting(const RestingAnswer& answer, const SweptBodies& bodies, double e
   result.last_touch = timesOf(known.last_touch);
   const std::size_t points = std::min(known.points.size(), static_cast<std::size_t>(std::max(max_points, 0)));
   for (std::size_t i = 0; i < points; ++i) result.points.push_back(placed(known.points[i]));
-  for (const ContactPoint& peak : known.peaks) result.peaks.push_back(placed(peak));
+  for (const ContactPoint& peak : known.peaks) result.peaks.push_back(deepest(peak));
 
   // The wrench is constant in the bodies' frames; its average is taken in the middle between recorded times.
   const Vector3d a_end = X_WA.at(time(1.0)).translation(), b_end = X_WB.at(time(1.0)).translation();

@@ -37,12 +37,20 @@ Boundary boundaryOf(PooledMesh& pooled) {
   return {{pooled.made.closed, &closed.solid()}, closed.moved() + widest + doubtOf(closed.solid())};
 }
 
-/// Fine enough for depths to a tenth of the default error.
+/// With a larger radius [m].
+Primitive grown(Primitive primitive, double by) {
+  if (auto* ball = std::get_if<Sphere>(&primitive)) ball->radius += by;
+  if (auto* cylinder = std::get_if<Cylinder>(&primitive)) cylinder->radius += by;
+  return primitive;
+}
+
+/// Fine enough for depths to a tenth of the default error. What is round is contained: a pin that fits into its hole
+/// fills it, and where round elements meet there is no gap.
 Boundary boundaryOf(const Primitive& primitive) {
   constexpr double kFine = 5e-6, kFineOfSize = 1e-5;
   const double fine = std::max(kFine, kFineOfSize * boundingBox(primitive).sizes().maxCoeff());
   const bool is_exact = std::holds_alternative<Box>(primitive);
-  return {std::make_shared<const Solid>(tessellate(primitive, fine)), is_exact ? 0.0 : fine};
+  return {std::make_shared<const Solid>(tessellate(grown(primitive, fine), fine)), is_exact ? 0.0 : fine};
 }
 
 Boundary boundaryOf(const GeometryDescription& element, MeshPool& pool) {

@@ -110,6 +110,29 @@ TEST(PairMeasure, AMarginIsNoErrorOfTheDepth) {
   }
 }
 
+/// While bodies rest, what was found for one error of their poses also answers for a larger one.
+TEST(PairMeasure, ARestingContactsDepthHasTheErrorOfItsCycle) {
+  const auto scene =
+      build({body("slab", Primitive(Box::fromSize({0.6, 0.6, 2.0 * kTop}))), body("ball", Primitive(Sphere{kHalf}))},
+            coarse());
+  for (const double depth : {1e-4, 2e-4, 0.003}) {
+    const Isometry3d ball = translation({0.013, 0.021, kTop + kHalf - depth});
+    CycleMotion motion = cycle(0.1, {still(Isometry3d::Identity()), {ball, ball}});
+    for (const double margin : {0.0, 0.01}) {
+      Monitor monitor(scene, soft());
+      CycleRequest request = {};
+      for (const double error : {3e-4, 3e-4, 3e-4, 3e-4, 5e-3, 1e-3, 3e-4}) {
+        motion.motion_error = {0.0, error};
+        request.margin = error > 3e-4 ? margin : 0.0;
+        const PairResult& pair = monitor.run(motion, request).pairs[0];
+        EXPECT_NEAR(pair.deepest.depth, depth, 1e-5);
+        EXPECT_GE(pair.deepest.depth_error, error) << depth << " " << margin;
+        EXPECT_LE(pair.deepest.depth_error, error + 1.1e-4) << depth << " " << margin;
+      }
+    }
+  }
+}
+
 /// Boxes whose faces nearly coincide: of some slivers it is not certain whether they lie inside, as in many meshes of
 /// robots.
 TEST(PairMeasure, SliversOfUncertainSidesDoNotMatter) {

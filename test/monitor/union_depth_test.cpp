@@ -153,6 +153,47 @@ TEST(UnionDepth, ABladeAtASeam) {
   }
 }
 
+/// A round pin fills a hole of its radius, whose wall is a mesh: beside that wall, the depth is that in both together.
+TEST(UnionDepth, APinThatFillsItsHole) {
+  constexpr int kSides = 64;
+  constexpr double kHole = 0.02, kRing = 0.05, kHalf = 0.05;
+  TriangleMesh ring;
+  for (const double z : {-kHalf, kHalf}) {
+    for (const double radius : {kHole, kRing}) {
+      for (int i = 0; i < kSides; ++i) {
+        const double angle = 2.0 * kPi * i / kSides;
+        ring.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+      }
+    }
+  }
+  const auto addQuad = [&](int a, int b, int c, int d) {
+    ring.triangles.push_back({a, b, c});
+    ring.triangles.push_back({a, c, d});
+  };
+  for (int i = 0; i < kSides; ++i) {
+    const int j = (i + 1) % kSides, out = kSides, top = 2 * kSides;
+    addQuad(out + i, out + j, top + out + j, top + out + i);
+    addQuad(j, i, top + i, top + j);
+    addQuad(top + i, top + out + i, top + out + j, top + j);
+    addQuad(i, j, out + j, out + i);
+  }
+  for (const double turned : {0.0, 0.004, 0.02}) {
+    BodyDescription all = body("ring", meshShape(ring));
+    all.geometry.push_back({Primitive(Cylinder::fromRadiusAndLength(kHole, 2.0 * kHalf)),
+                            pose(Vector3d::Zero(), turned, Vector3d::UnitZ()), "pin"});
+    const SceneDescription description{{all, body("ball", Primitive(Sphere{0.1}))}, {}};
+    NearestBodySearch search(build(description, fine(0.05)), std::make_shared<const SceneDescription>(description));
+    search.prepare(0);
+    for (int i = 0; i < kSides; ++i) {
+      const double angle = 2.0 * kPi * i / kSides, radius = kHole - 1e-4;
+      const NearestBody found = search.nearest({Isometry3d::Identity(), translation({9, 0, 0})},
+                                               {radius * std::cos(angle), radius * std::sin(angle), 0.0});
+      ASSERT_NEAR(found.distance, (radius - kRing) * std::cos(kPi / kSides), found.error + 1e-9) << turned << " " << i;
+      ASSERT_LT(found.error, 2e-5);
+    }
+  }
+}
+
 /// A ball pressed into a body of several parts, wherever they meet: the depth is that in all of them together.
 TEST(UnionDepth, IsThatOfAllParts) {
   Random random(3);
