@@ -42,11 +42,13 @@ bool needsField(const BodyDescription& description) {
 /// Its gradient is in the frame of the body.
 FieldSample sampleOf(const DepthSolid& solid, const Vector3d& p_B) {
   constexpr double kRounding = 1e-12;
-  const PointDepth depth = solid.at(solid.X_BG().inverse() * p_B);
+  const Vector3d p_G = solid.X_BG().inverse() * p_B;
+  const PointDepth depth = solid.at(p_G);
   FieldSample sample;
   sample.value = -depth.depth;
   sample.gradient = solid.X_BG().linear() * depth.out;
   sample.error = solid.deviation() + kRounding * (std::abs(depth.depth) + p_B.norm());
+  if (depth.depth > 0.0) sample.error += depth.depth - solid.leastDepth(p_G, depth.depth);
   return sample;
 }
 

@@ -114,6 +114,7 @@ ContactPoint PairDepth::deepestPoint(double highest, double error) const {
   point.depth_error = std::max(0.0, highest - best_.depth) + error + deviation_;
   if (!(best_.depth > 0.0)) return point;
   const Direction& direction = directions_[best_direction_];
+  point.depth_error += best_.depth - std::max(0.0, direction.solid->leastDepth(best_.p_G, best_.depth));
   const TwoBodyMotion motion = direction.motion.motion(best_step_);
   const Isometry3d X_WG = motion.X_WF.pose(best_.s) * direction.solid->X_BG();
   point.time = timeAt(motion, best_.s);

@@ -46,16 +46,38 @@ Primitive grown(Primitive primitive, double by) {
 
 /// Fine enough for depths to a tenth of the default error. What is round is contained: a pin that fits into its hole
 /// fills it, and where round elements meet there is no gap.
-Boundary boundaryOf(const Primitive& primitive) {
+Boundary boundaryOf(const Primitive& primitive, bool is_inner) {
   constexpr double kFine = 5e-6, kFineOfSize = 1e-5;
   const double fine = std::max(kFine, kFineOfSize * boundingBox(primitive).sizes().maxCoeff());
   const bool is_exact = std::holds_alternative<Box>(primitive);
-  return {std::make_shared<const Solid>(tessellate(grown(primitive, fine), fine)), is_exact ? 0.0 : fine};
+  const Primitive shape = is_inner ? primitive : grown(primitive, fine);
+  return {std::make_shared<const Solid>(tessellate(shape, fine)), is_exact ? 0.0 : fine};
 }
 
-Boundary boundaryOf(const GeometryDescription& element, MeshPool& pool) {
+Boundary boundaryOf(const GeometryDescription& element, MeshPool& pool, bool is_inner = false) {
   const auto* primitive = std::get_if<Primitive>(&element.shape);
-  return primitive ? boundaryOf(*primitive) : boundaryOf(pool.find(element));
+  return primitive ? boundaryOf(*primitive, is_inner) : boundaryOf(pool.find(element));
+}
+
+/// All elements as one. @param is_inner  contained in the body, instead of containing it.
+Boundary unionOf(const std::vector<const GeometryDescription*>& elements, MeshPool& pool, bool is_inner) {
+  TriangleMesh all;
+  double deviation = 0.0;
+  for (const GeometryDescription* element : elements) {
+    const Boundary boundary = boundaryOf(*element, pool, is_inner);
+    if (!boundary.solid) return {};
+    deviation = std::max(deviation, boundary.deviation);
+    all = merged(std::move(all), transformed(boundary.solid->boundary(), element->X_BG));
+  }
+  auto solid = std::make_shared<const Solid>(all);
+  if (!isCertain(*solid)) return {};
+  deviation += doubtOf(*solid);
+  return {std::move(solid), deviation};
+}
+
+bool isRound(const GeometryDescription& element) {
+  const auto* primitive = std::get_if<Primitive>(&element.shape);
+  return primitive && !std::holds_alternative<Box>(*primitive);
 }
 
 std::shared_ptr<const DepthSolid> ownSolidOf(const BodyDescription& description, MeshPool& pool) {
@@ -74,18 +96,14 @@ std::shared_ptr<const DepthSolid> ownSolidOf(const BodyDescription& description,
     if (!boundary.solid) return nullptr;
     return std::make_shared<const DepthSolid>(boundary.solid, first.X_BG, boundary.deviation);
   }
-  TriangleMesh all;
-  double deviation = 0.0;
-  for (const GeometryDescription* element : elements) {
-    const Boundary boundary = boundaryOf(*element, pool);
-    if (!boundary.solid) return nullptr;
-    deviation = std::max(deviation, boundary.deviation);
-    all = merged(std::move(all), transformed(boundary.solid->boundary(), element->X_BG));
+  Boundary all = unionOf(elements, pool, false), inner;
+  if (!all.solid) return nullptr;
+  if (std::any_of(elements.begin(), elements.end(), [](const auto* element) { return isRound(*element); })) {
+    inner = unionOf(elements, pool, true);
+    if (!inner.solid) return nullptr;
   }
-  auto solid = std::make_shared<const Solid>(all);
-  if (!isCertain(*solid)) return nullptr;
-  deviation += doubtOf(*solid);
-  return std::make_shared<const DepthSolid>(std::move(solid), Isometry3d::Identity(), deviation);
+  return std::make_shared<const DepthSolid>(std::move(all.solid), Isometry3d::Identity(),
+                                            std::max(all.deviation, inner.deviation), std::move(inner.solid));
 }
 
 }  // namespace

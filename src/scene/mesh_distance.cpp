@@ -14,6 +14,11 @@ namespace {
 /// Solid).
 constexpr double kBoundaryError = 2e-9;
 
+/// @param greatest  upper bound of any depth [m].
+double doubtOf(const SolidReport& report, double greatest) {
+  return report.failure.empty() ? std::min(report.doubtful_reach, greatest) : greatest;
+}
+
 OrientedMesh orientedMesh(const GeometryDescription& geometry) {
   const TriangleMesh& mesh = *std::get<std::shared_ptr<const TriangleMesh>>(geometry.shape);
   if (!geometry.watertight_voxels) return orientOutward(mesh);
@@ -36,7 +41,8 @@ MeshDistance::MeshDistance(const OrientedMesh& oriented, const ClosedSolid& clos
       is_sign_trusted_(oriented.quality.sign_trusted),
       warning_(warningOf(oriented.quality)),
       box_(boundingBox(surface_.solid().boundary())),
-      error_(kBoundaryError * box_.sizes().maxCoeff() + closed.moved()) {
+      error_(kBoundaryError * box_.sizes().maxCoeff() + closed.moved()),
+      doubt_(doubtOf(closed.solid().report(), 0.5 * box_.sizes().minCoeff() + error_)) {
   const Openings& openings = closed.openings();
   if (!openings.reach.empty()) caps_ = std::make_shared<const OpeningCaps>(openings.caps, openings.reach);
 }
@@ -52,7 +58,7 @@ FieldSample MeshDistance::sample(const Vector3d& p_G) const {
   const double sign = !is_outside_box && surface_.inside(p_G) ? -1.0 : 1.0;
   FieldSample sample;
   sample.value = sign * closest.distance;
-  sample.error = error_;
+  sample.error = sign < 0.0 ? error_ + doubt_ : error_;
   sample.gradient = closest.distance > 0.0
                         ? Vector3d(sign / closest.distance * (p_G - closest.point))
                         : Vector3d(areaNormal(surface_.tree().triangle(closest.triangle).corners()).stableNormalized());

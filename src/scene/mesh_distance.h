@@ -47,6 +47,7 @@ class MeshDistance {
   std::string warning_;
   AlignedBox3d box_;
   double error_;  // of the boundary [m]
+  double doubt_;  // depths may be too small by this, because of faces inside the solid [m]
 };
 
 }  // namespace sdf_ccd

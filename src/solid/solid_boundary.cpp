@@ -190,7 +190,7 @@ Solid::Solid(const TriangleMesh& mesh, const SolidLimits& limits)
     if (!cuts.of[i].empty()) cut.push_back(static_cast<int>(i));
   }
   const bool as_it_is = cut.empty() && std::all_of(sides.begin(), sides.end(), [](Sides s) {
-                          return s != Sides::kInterior && s != Sides::kInward;
+                          return s != Sides::kInterior && s != Sides::kInward && s != Sides::kUnknown;
                         });
   if (as_it_is) return;
 

@@ -35,8 +35,9 @@ PointDepth depthIn(const Solid& solid, const Vector3d& p, int likely) {
 
 }  // namespace
 
-DepthSolid::DepthSolid(std::shared_ptr<const Solid> solid, const Isometry3d& X_BG, double deviation)
-    : X_BG_(X_BG), deviation_(deviation + solid->seam()) {
+DepthSolid::DepthSolid(std::shared_ptr<const Solid> solid, const Isometry3d& X_BG, double deviation,
+                       std::shared_ptr<const Solid> inner)
+    : X_BG_(X_BG), deviation_(deviation + solid->seam()), inner_(std::move(inner)) {
   Mesh mesh;
   mesh.solid = std::move(solid);
   mesh.box = boundingBox(mesh.solid->boundary());
@@ -62,6 +63,10 @@ PointDepth DepthSolid::at(const Vector3d& p, int likely) const {
   if (const auto* plane = std::get_if<HalfSpace>(&shape_))
     return {plane->offset - plane->normal.dot(p), -1, plane->normal};
   return depthIn(*mesh().solid, p, likely);
+}
+
+double DepthSolid::leastDepth(const Vector3d& p, double depth) const {
+  return inner_ ? std::min(depth, depthIn(*inner_, p, -1).depth) : depth;
 }
 
 double DepthSolid::greatestDepth() const {
@@ -121,7 +126,8 @@ DepthPlane DepthSolid::planeAlong(const Vector3d& normal, int triangle, const Ve
 
 std::size_t DepthSolid::bytes() const {
   const auto* of_mesh = std::get_if<Mesh>(&shape_);
-  return of_mesh ? of_mesh->solid->tree().bytes() + of_mesh->protrusion.size() * sizeof(double) : 0;
+  const std::size_t of_inner = inner_ ? inner_->tree().bytes() : 0;
+  return of_mesh ? of_mesh->solid->tree().bytes() + of_mesh->protrusion.size() * sizeof(double) + of_inner : 0;
 }
 
 }  // namespace sdf_ccd

@@ -41,7 +41,10 @@ class DepthSolid {
  public:
   /// @param solid      must be closed.
   /// @param deviation  upper bound of its surface's from the body's [m].
-  DepthSolid(std::shared_ptr<const Solid> solid, const Isometry3d& X_BG, double deviation = 0.0);
+  /// @param inner      contained in the body, as the solid contains it; null if the solid's deviation tells as much.
+  /// The depth in a union is not within its surface's deviation: where elements just meet, it may be far greater.
+  DepthSolid(std::shared_ptr<const Solid> solid, const Isometry3d& X_BG, double deviation = 0.0,
+             std::shared_ptr<const Solid> inner = nullptr);
   DepthSolid(const Sphere& ball, const Isometry3d& X_BG) : X_BG_(X_BG), shape_(ball) {}
   DepthSolid(const HalfSpace& half_space) : shape_(half_space) {}
 
@@ -50,6 +53,9 @@ class DepthSolid {
 
   /// @param likely  a triangle that is probably near, or -1; it does not affect the depth.
   PointDepth at(const Vector3d& p, int likely = -1) const;
+
+  /// Lower bound of the depth in the body, up to the deviation, of a point that is this deep in the solid [m].
+  double leastDepth(const Vector3d& p, double depth) const;
 
   /// Upper bound of all depths [m]: no ball in the solid is larger.
   double greatestDepth() const;
@@ -87,6 +93,7 @@ class DepthSolid {
   Isometry3d X_BG_ = Isometry3d::Identity();
   double deviation_ = 0.0;
   std::variant<Mesh, Sphere, HalfSpace> shape_;
+  std::shared_ptr<const Solid> inner_;
 };
 
 }  // namespace sdf_ccd
