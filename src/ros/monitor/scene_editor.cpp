@@ -263,7 +263,8 @@ void SceneEditor::update(const UpdateScene::Request& request, UpdateScene::Respo
     response.message = error.what();
   }
   response.scene_version = world()->version();
-  for (const auto& [name, object] : scene()->objects()) response.objects.push_back(name);
+  const std::shared_ptr<const ChangingScene> now = scene();  // others may replace it meanwhile
+  for (const auto& [name, object] : now->objects()) response.objects.push_back(name);
 }
 
 }  // namespace sdf_ccd
